@@ -9,8 +9,9 @@ namespace plyform {
 
 /// Energies, and work done since the start, N mm (mJ). friction: of dry sliding; film: of laws that
 /// go by the viscosity of a film. external: work of tools, boundaries, loads
-/// and gravity on the plies, and the energy of the plies at the start. mass_scaling: kinetic energy
-/// that came with added mass.
+/// and gravity on the plies, the energy of the plies at the start, and what changes of temperature
+/// give to the energy of shear (W df, C_e = f dW/dgamma), which no work of the plies is.
+/// mass_scaling: kinetic energy that came with added mass.
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, stitch = 0, bending = 0, contact = 0, friction = 0,
          damping = 0, stitch_breaking = 0, external = 0, mass_scaling = 0, compaction = 0,

@@ -17,7 +17,9 @@ double place_among(int task, std::size_t tasks) {
 
 MembraneEnergy energy_of(const Scene& s, const Block& block) {
   const PlyBody& ply = s.plies[at(block.ply)];
-  if (ply.simd) return simd_energy(*ply.simd, ply.membrane, ply.x, s.dt, block.begin, ply.yarns);
+  if (ply.simd)
+    return simd_energy(*ply.simd, ply.membrane, ply.x, s.dt, block.begin, ply.yarns,
+                       ply.shear_factors);
   return block.begin > 0 ? MembraneEnergy{} : membrane_energy(ply.membrane, ply.x); // of all blocks
 }
 
@@ -59,7 +61,7 @@ void ElementForces::run(Scene& s, int task) {
   const std::optional<KernelViscous> viscous = viscous_of(s, ply);
   const GroupReport report =
       ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, s.dt, block.begin,
-                             {ply.yarns, ply.yarns_end}, pointer_to(viscous))
+                             {ply.yarns, ply.yarns_end}, pointer_to(viscous), ply.shear_factors)
                : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, {}, ply.q);
   s.group_lost[at(task)] = report.lost;
   s.group_torn[at(task)] = report.torn;

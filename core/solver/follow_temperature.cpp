@@ -113,22 +113,26 @@ std::vector<double> cooled(const PlyBody& ply, const Faces& faces, double air, d
   return celsius;
 }
 
-/// What the temperatures of a time (s) make of viscosities: of triangles at the mean of their
-/// nodes.
-void find_flow_factors(PlyBody& ply, double time) {
+/// A law's factors of triangles, at the mean temperature of their nodes, in the kernel's order.
+void find_factors(const PlyBody& ply, const TemperatureFactor& law, PackedStates& factors) {
+  if (factors.empty()) return;
+  std::vector<double> of;
+  of.reserve(ply.membrane.triangles.size());
+  for (const Triangle& t : ply.membrane.triangles) {
+    double celsius = 0.0;
+    for (const std::int32_t node : t)
+      celsius += ply.temperature[at(node)] / 3.0;
+    of.push_back(law.at(celsius));
+  }
+  pack(*ply.simd, ply.membrane, of, factors);
+}
+
+/// What the temperatures of a time (s) make of viscosities and of elastic shear.
+void find_all_factors(PlyBody& ply, double time) {
   if (ply.flow_time == time) return;
   const TemperatureFactor& flow = ply.membrane.fabric.flow;
-  if (!ply.flow_factors.empty()) {
-    std::vector<double> of;
-    of.reserve(ply.membrane.triangles.size());
-    for (const Triangle& t : ply.membrane.triangles) {
-      double celsius = 0.0;
-      for (const std::int32_t node : t)
-        celsius += ply.temperature[at(node)] / 3.0;
-      of.push_back(flow.at(celsius));
-    }
-    pack(*ply.simd, ply.membrane, of, ply.flow_factors);
-  }
+  find_factors(ply, flow, ply.flow_factors);
+  find_factors(ply, ply.membrane.fabric.shear_over_temperature, ply.shear_factors);
   if (!ply.node_flow_factors.empty()) {
     std::vector<double> of;
     of.reserve(ply.temperature.size());
@@ -137,6 +141,28 @@ void find_flow_factors(PlyBody& ply, double time) {
     pack(*ply.bending, of, ply.node_flow_factors);
   }
   ply.flow_time = time;
+}
+
+/// N mm, what shear stores more than before, at the present shape.
+double heat_of_shear(const PlyBody& ply, const PackedStates& before) {
+  PackedStates change = ply.shear_factors;
+  for (std::size_t i = 0; i < change.size(); ++i)
+    for (std::size_t lane = 0; lane < simd_width; ++lane)
+      change[i].of[lane] -= before[i].of[lane];
+  double sum = 0.0;
+  for (std::size_t b = 0; b < ply.simd->blocks.size(); ++b)
+    sum +=
+        simd_shear_energy(*ply.simd, ply.membrane, ply.x, static_cast<int>(b), ply.yarns, change);
+  return sum;
+}
+
+/// Gives a ply its temperatures of a time (s), and counts what that does to the energy of shear.
+void set_temperatures(PlyBody& ply, std::vector<double> celsius, double before, double time) {
+  find_all_factors(ply, before); // after a checkpoint, or going back, they are not known
+  const PackedStates shear = ply.shear_factors;
+  ply.temperature = std::move(celsius);
+  find_all_factors(ply, time);
+  if (!shear.empty()) ply.shear_heat += heat_of_shear(ply, shear);
 }
 
 } // namespace
@@ -165,12 +191,13 @@ std::vector<std::vector<double>> present_temperatures(const Scene& s, ThreadPool
 void update_temperatures(Scene& s, ThreadPool& pool) {
   if (s.data.process.cooling && s.step % temperatures_every == 0) {
     std::vector<std::vector<double>> celsius = present_temperatures(s, pool);
-    for (std::size_t p = 0; p < s.plies.size(); ++p)
-      s.plies[p].temperature = std::move(celsius[p]);
+    pool.run(static_cast<int>(s.plies.size()), [&](int p) {
+      set_temperatures(s.plies[at(p)], std::move(celsius[at(p)]), s.cooled_until, s.time);
+    });
     s.cooled_until = s.time;
   }
   for (PlyBody& ply : s.plies)
-    find_flow_factors(ply, s.cooled_until);
+    find_all_factors(ply, s.cooled_until);
 }
 
 } // namespace plyform

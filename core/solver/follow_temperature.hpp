@@ -19,6 +19,10 @@
 // Of two plies that touch, (1) for both has the mean T_m = (C_a T_a + C_b T_b) / (C_a + C_b),
 // which stays, and each goes to it: T_k = T_m, h_k = h (C_a + C_b) / C_b for ply a. With T_k = T_b,
 // they would exchange their temperatures in a step that is too long.
+//
+// Elastic shear over temperature, C = f(T) C_e: what it stores, f W, changes with f at a fixed
+// shape too. That is heat which becomes elastic energy, or the other way, and no work of any force:
+// its sum, of W df at each update, is PlyState::shear_heat.
 #pragma once
 
 #include "base/thread_pool.hpp"
@@ -34,8 +38,8 @@ constexpr long temperatures_every = 10;
 std::vector<std::vector<double>> present_temperatures(const Scene& s, ThreadPool& pool);
 
 /// Takes the temperatures of plies to the present time, if the case has cooling and an update is
-/// due, and what they make of viscosities. Asked twice at one time it changes nothing. To be called
-/// before forces are computed.
+/// due, and what they make of viscosities and of elastic shear. Asked twice at one time it changes
+/// nothing. To be called before forces are computed.
 void update_temperatures(Scene& s, ThreadPool& pool);
 
 } // namespace plyform

@@ -73,6 +73,9 @@ struct PlyState {
   bool resting = false;
   /// N mm, done by pressures since the start, but for what PlyCache::last_load_work has.
   double load_work = 0.0;
+  /// N mm, what changes of temperature at a fixed shape gave to the energy of shear since the
+  /// start.
+  double shear_heat = 0.0;
   /// What laws with rates keep, as `yarns`: ViscousMembrane::states of each triangle, in the
   /// kernel's order, or empty.
   PackedStates viscous_states;
@@ -84,7 +87,7 @@ struct PlyState {
 /// compile.
 template <class F>
 void each_array(PlyState& ply, F&& f) {
-  auto& [x, velocity, motion, reaction, mass, yarns, temperature, resting, load_work,
+  auto& [x, velocity, motion, reaction, mass, yarns, temperature, resting, load_work, shear_heat,
          viscous_states, bending_states] = ply;
   f("x", On::node, x);
   f("velocity", On::node, velocity);
@@ -95,6 +98,7 @@ void each_array(PlyState& ply, F&& f) {
   f("temperature", On::node, temperature);
   f("resting", On::ply, resting);
   f("load_work", On::ply, load_work);
+  f("shear_heat", On::ply, shear_heat);
   f("viscous_states", On::pack, viscous_states);
   f("bending_states", On::pack, bending_states);
 }
@@ -136,8 +140,9 @@ struct PlyCache {
   std::vector<SimdYarnStates> yarns_end;
   PackedStates viscous_end, bending_end; ///< likewise, of states of laws with rates
   bool viscous_stepped = false;          ///< whether these are of the step that was computed
-  /// What temperatures make of viscosities, of each triangle and of each node; empty: nothing.
-  PackedStates flow_factors, node_flow_factors;
+  /// What temperatures make of viscosities, of each triangle and of each node, and of elastic
+  /// shear; empty: nothing.
+  PackedStates flow_factors, node_flow_factors, shear_factors;
   /// s, SceneProgress::cooled_until of the temperatures that they are of.
   double flow_time = std::numeric_limits<double>::quiet_NaN();
 };
@@ -149,7 +154,7 @@ void each_array(PlyCache& ply, F&& f) {
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
          thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
          last_load_work, last_ratio, squeeze, spread, pressed, yarns_end, viscous_end, bending_end,
-         viscous_stepped, flow_factors, node_flow_factors, flow_time] = ply;
+         viscous_stepped, flow_factors, node_flow_factors, shear_factors, flow_time] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);

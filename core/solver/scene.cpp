@@ -6,6 +6,7 @@
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/motion.hpp"
 #include "core/model/reach_ahead.hpp"
+#include "core/model/reachable_temperature.hpp"
 #include "core/solver/element_mass_scaling.hpp"
 #include "core/solver/make_contacts.hpp"
 
@@ -46,13 +47,29 @@ void set_frequency(const Case& data, PlyBody& body) {
   body.bound = eigenvalue_bound(body.membrane, body.x); // with viscosity
 }
 
+/// Sets how stiff crossings may become by their temperature: of all plies of the fabric, which
+/// share what follows from it.
+void set_stiffest(const Case& data, int fabric, Membrane& membrane) {
+  const TemperatureFactor& factor = data.fabrics[fabric].shear_over_temperature;
+  if (!factor.depends()) return;
+  double stiffest = 0.0;
+  for (const Ply& ply : data.plies)
+    if (const auto range = reachable_temperatures(data, ply); range && ply.fabric == fabric)
+      stiffest = std::max(stiffest, factor.extremes(*range).second);
+  for (MembraneCrossing& crossing : membrane.crossings)
+    if (stiffest > 0.0) crossing.stiffest = stiffest;
+}
+
 /// Temperatures at the start, and room for what follows them: core/solver/follow_temperature.hpp.
 void set_temperature(const Case& data, const Ply& ply, PlyBody& body) {
   const std::optional<double> temperature = start_temperature(data, ply);
   if (!temperature) return;
   body.temperature.assign(body.x.size(), *temperature);
-  if (!data.fabrics[ply.fabric].flow.depends()) return;
+  const Fabric& fabric = data.fabrics[ply.fabric];
   const SimdNumbers one{{1.0, 1.0, 1.0, 1.0}};
+  if (fabric.shear_over_temperature.depends() && body.simd)
+    body.shear_factors.assign(body.simd->triangles->size(), one);
+  if (!fabric.flow.depends()) return;
   if (body.viscous) body.flow_factors.assign(body.simd->triangles->size(), one);
   if (body.viscous_bending) body.node_flow_factors.assign(body.bending->stencils.size(), one);
 }
@@ -85,6 +102,7 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.thickness = fabric.thickness;
   body.membrane =
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
+  set_stiffest(data, ply.fabric, body.membrane);
   body.membrane.process_time = data.process_time();
   body.viscous = make_viscous(body.membrane, data.process_stroke_time());
   body.x0.reserve(mesh.x.size());

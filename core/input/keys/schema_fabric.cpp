@@ -203,8 +203,7 @@ Rows fabric_rows() {
   append(rows, family_rows());
   append(rows, stitch_rows());
   append(rows, heat_capacity_rows());
-  append(rows, temperature_law_rows("fabrics.NAME.temperature", "laws of the fabric depend",
-                                    "viscosities and relaxation times"));
+  append(rows, fabric_temperature_rows());
   append(rows, compaction_rows());
   append(rows, sheet_rows());
   return rows;

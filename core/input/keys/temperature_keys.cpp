@@ -109,14 +109,14 @@ void check_cooling(const TableView& root, const TableView& section, const Case& 
               "and plies give it their heat", "give the tool a temperature");
 }
 
-/// Reports a start outside of what the law of the ply's fabric is known for, where it is given.
-void check_start(const TableView& root, const TableView& ply, const Fabric& fabric, double celsius,
-                 Diagnostics& diagnostics) {
-  const TemperatureRange known = fabric.flow.range();
+/// Reports a start outside of what a law of the ply's fabric is known for, where it is given.
+void check_start(const TableView& root, const TableView& ply, const Fabric& fabric,
+                 const LawOverTemperature& law, double celsius, Diagnostics& diagnostics) {
+  const TemperatureRange known = law.factor.range();
   if (known.holds(celsius)) return;
   const TableView section = given(ply, "temperature") ? ply : subsection(root, "process");
   value_error(section, "temperature",
-              fmt::format("is outside of what the viscosity of fabric {} is known for, {}",
+              fmt::format("is outside of what the {} of fabric {} is known for, {}", law.of,
                           fabric.name, known.text()),
               "give a temperature inside, or a law that reaches it", diagnostics);
 }
@@ -124,12 +124,33 @@ void check_start(const TableView& root, const TableView& ply, const Fabric& fabr
 /// Warns of laws over temperature that have nothing to act on.
 void check_use(const TableView& root, const Case& built, Diagnostics& diagnostics) {
   const std::vector<TableView> sections = subsections(root, "fabrics");
-  for (std::size_t f = 0; f < sections.size() && f < built.fabrics.size(); ++f)
-    if (built.fabrics[f].flow.depends() && !has_rates(built.fabrics[f]))
-      if (const TomlNode* table = given(sections[f], "temperature"))
-        diagnostics.warning(table->at, fmt::format("temperature of fabric {}: does nothing, as no "
-                                                   "law of it depends on rates",
-                                                   built.fabrics[f].name));
+  for (std::size_t f = 0; f < sections.size() && f < built.fabrics.size(); ++f) {
+    const Fabric& fabric = built.fabrics[f];
+    const TomlNode* table = given(sections[f], "temperature");
+    if (!table) continue;
+    const auto warn = [&](const std::string& of, const std::string& why) {
+      diagnostics.warning(
+          table->at, fmt::format("{} of fabric {}: does nothing, as {}", of, fabric.name, why));
+    };
+    const bool shear = fabric.shear_over_temperature.depends();
+    if (fabric.flow.depends() && !has_rates(fabric))
+      warn(shear ? "temperature.viscosity" : "temperature", "no law of it depends on rates");
+    if (shear && fabric.crossings.empty())
+      warn("temperature.shear", "it has no law of shear between two families of yarns");
+  }
+}
+
+/// Warns of a ply that may leave what a law of its fabric is known for.
+void check_reach(const TableView& ply, const Ply& of, const Fabric& fabric,
+                 const LawOverTemperature& law, const TemperatureRange& may, double celsius,
+                 Diagnostics& diagnostics) {
+  const TemperatureRange known = law.factor.range();
+  if (!known.holds(celsius) || (known.holds(may.least) && known.holds(may.most))) return;
+  diagnostics.warning(
+      ply.entry->at,
+      fmt::format("ply {} may come to {:.4g} to {:.4g} degC, and the {} of fabric {} is known for "
+                  "{}: beyond, it stays as at the end",
+                  of.name, may.least, may.most, law.of, fabric.name, known.text()));
 }
 
 /// What laws that depend on temperature need of the case. To be called when all else was read.
@@ -137,8 +158,12 @@ void check_laws(const TableView& root, const Case& built, Diagnostics& diagnosti
   const std::vector<TableView> sections = subsections(root, "ply");
   for (std::size_t p = 0; p < built.plies.size() && p < sections.size(); ++p) {
     const auto index = static_cast<std::size_t>(built.plies[p].fabric);
-    if (index >= built.fabrics.size() || !built.fabrics[index].flow.depends()) continue;
+    if (index >= built.fabrics.size()) continue;
     const Fabric& fabric = built.fabrics[index];
+    const auto laws = laws_over_temperature(fabric);
+    if (std::none_of(laws.begin(), laws.end(),
+                     [](const LawOverTemperature& law) { return law.factor.depends(); }))
+      continue;
     const auto celsius = start_temperature(built, built.plies[p]);
     if (!celsius && has_temperature(built)) continue; // told
     if (!celsius)
@@ -146,15 +171,12 @@ void check_laws(const TableView& root, const Case& built, Diagnostics& diagnosti
           root.entry->at, "process.temperature", "",
           fmt::format("is missing, and laws of fabric {} depend on it", fabric.name),
           "give [process] a temperature, degC");
-    check_start(root, sections[p], fabric, *celsius, diagnostics);
-    const TemperatureRange may = *reachable_temperatures(built, built.plies[p]),
-                           known = fabric.flow.range();
-    if (known.holds(*celsius) && !(known.holds(may.least) && known.holds(may.most)))
-      diagnostics.warning(
-          sections[p].entry->at,
-          fmt::format("ply {} may come to {:.4g} to {:.4g} degC, and the viscosity of fabric {} is "
-                      "known for {}: beyond, it stays as at the end",
-                      built.plies[p].name, may.least, may.most, fabric.name, known.text()));
+    const TemperatureRange may = *reachable_temperatures(built, built.plies[p]);
+    for (const LawOverTemperature& law : laws) {
+      if (!law.factor.depends()) continue;
+      check_start(root, sections[p], fabric, law, *celsius, diagnostics);
+      check_reach(sections[p], built.plies[p], fabric, law, may, *celsius, diagnostics);
+    }
   }
 }
 

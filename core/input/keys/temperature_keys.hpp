@@ -20,6 +20,10 @@ Rows heat_capacity_rows();
 Rows temperature_law_rows(const std::string& table, const std::string& of, const std::string& what);
 /// Reads the law in `section`, TABLE; none if it is not given or wrong.
 TemperatureFactor read_temperature_law(const TableView& section, Diagnostics& diagnostics);
+/// The same of fabrics, fabrics.NAME.temperature, whose elastic shear may follow it too: of
+/// viscosity and shear at least one.
+Rows fabric_temperature_rows();
+void read_fabric_temperature(const TableView& section, Fabric& fabric, Diagnostics& diagnostics);
 /// process.temperature and process.cooling.
 Rows process_temperature_rows();
 

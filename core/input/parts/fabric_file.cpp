@@ -49,18 +49,12 @@ void read_weave(const TableView& section, Fabric& fabric, Diagnostics& diagnosti
   read_crimp(subsection(section, "crimp"), fabric, fabric.crossings[0], diagnostics);
 }
 
-/// How viscosities follow the temperature.
-void read_flow(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
-  if (given(section, "reference")) fabric.flow_reference = number(section, "reference");
-  fabric.flow = read_temperature_law(section, diagnostics);
-}
-
 Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics& diagnostics) {
   Fabric fabric;
   fabric.name = key;
   read_members(section, fabric);
   read_compaction(subsection(section, "compaction"), fabric, diagnostics);
-  read_flow(subsection(section, "temperature"), fabric, diagnostics);
+  read_fabric_temperature(subsection(section, "temperature"), fabric, diagnostics);
   if (read_sheet(section, fabric, diagnostics)) return fabric;
   if (text(section, "law") == families_word)
     read_families(section, fabric, diagnostics);

@@ -42,11 +42,11 @@ struct Keys {
 TEST(CaseKeys, AreJustThoseThatGoodFilesUse) {
   Keys keys;
   for (const char* name :
-       {"every_shape",     "inline",         "base",     "boundaries", "bending",
-        "accuracy",        "profile_shapes", "outlines", "springs",    "zones",
-        "families",        "stitches",       "loads",    "compaction", "rubber",
-        "enclosure",       "temperature",    "cooling",  "viscous",    "friction",
-        "film_temperature"}) {
+       {"every_shape",      "inline",           "base",     "boundaries", "bending",
+        "accuracy",         "profile_shapes",   "outlines", "springs",    "zones",
+        "families",         "stitches",         "loads",    "compaction", "rubber",
+        "enclosure",        "temperature",      "cooling",  "viscous",    "friction",
+        "film_temperature", "shear_temperature"}) {
     good_case(data_folder / "good" / (std::string(name) + ".toml")); // each of its keys is accepted
     keys.add(data_folder / "good" / (std::string(name) + ".toml"), "");
   }

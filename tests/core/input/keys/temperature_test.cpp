@@ -51,6 +51,18 @@ TEST(Temperatures, LawsAreReadAndWarnedOfWhereTheyHaveNothingToActOn) {
   EXPECT_NEAR(std::log10(other.fabrics[1].flow.at(230.0)), -8.86 * 50.0 / 151.6, 1e-12);
 }
 
+TEST(Temperatures, ElasticShearHasATableOfItsOwnAndNeedsNoRates) {
+  const PreparedCase read = prepare_case(data_folder / "good" / "shear_temperature.toml", {});
+  ASSERT_TRUE(read.value) << all_texts(read);
+  EXPECT_TRUE(read.warnings.empty()) << read.warnings.front();
+  EXPECT_FALSE(read.value->process.duration);
+  const Fabric& prepreg = read.value->fabrics[0];
+  EXPECT_FALSE(prepreg.flow.depends());
+  EXPECT_EQ(prepreg.shear_over_temperature.at(180.0), 1.0);
+  EXPECT_NEAR(prepreg.shear_over_temperature.at(160.0), 1.6, 1e-12);
+  EXPECT_EQ(prepreg.shear_over_temperature.range().text(), "160 to 220 degC");
+}
+
 TEST(Temperatures, AreNoneWhereNoneIsGiven) {
   const Case read = good_case(data_folder / "good" / "base.toml");
   EXPECT_FALSE(has_temperature(read));
