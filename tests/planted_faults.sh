@@ -42,7 +42,7 @@ faults=(
   "films see simulated speeds | contact/forces/contact_law.hpp | s/dt \* contact.process_time/dt/"
   "each of two passes of plies has the whole film | core/solver/make_contacts.cpp | s/law.share = 0.5/law.share = 1.0/"
   "a film lets go where faces open by less than its thickness | core/solver/make_contacts.cpp | s/law.film_gap = std::min(/law.film_gap = 0.0 * std::min(/"
-  "nodes at a rim have films on all of their area | contact/forces/sliding_point.cpp | s/std::max(share, least_share) \* own/own/"
+  "nodes at a rim have films on all of their area | contact/forces/sliding_point.cpp | s/std::max(share, least_share) \* own/std::max(1.0 + 0.0 * share, least_share) * own/"
   "friction by the angle of fibres takes them for parallel | contact/forces/sliding_point.cpp | s/law.by_angle(std::acos(/law.by_angle(0.0 * std::acos(/"
   "stitches push where they are slack | core/ply/membrane_simd_yarns.hpp | s/beyond = larger(all(0.0), stretch - law.taut_at)/beyond = stretch - law.taut_at/"
   "broken stitches pull again | core/ply/membrane_simd_yarns.hpp | s/n\[a\] = (breaks | gone) ? all(0.0)/n[a] = breaks ? all(0.0)/"
