@@ -2,9 +2,8 @@
 // What two faces that slide on each other resist with, where it is more than one coefficient.
 //
 //   v     mm/s      slip speed in the process;  p  N/mm^2  normal pressure;  y  mm  slip of a step
-//   eta   N s/mm^2  viscosity of the matrix between them, at the film's rate v / h if it thins,
-//   times
-//                   a factor f(T) where it follows the temperature
+//   eta   N s/mm^2  viscosity of the matrix between them, at the film's rate v / h if it thins, by
+//                   f(T) where it follows the temperature
 //   T     degC      temperature of the film: the mean of those of both bodies there, as one side of
 //                   it has that of the one and the other that of the other
 //   h     mm        thickness of the film
