@@ -5,6 +5,7 @@ import os
 import re
 import shlex
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -25,6 +26,7 @@ PERIOD = 0.5  # s, of telling how far runs are
 BYTES = "application/octet-stream"
 ACCURACIES = ("", "draft", "standard", "reference")
 MOST_THREADS = 256
+PATIENCE = (0.1, 0.3, 0.6)  # s, between tries to read what a run may just be writing
 
 
 def routes(studio: Studio) -> APIRouter:
@@ -67,11 +69,12 @@ def routes(studio: Studio) -> APIRouter:
 
     @router.get("/runs/bodies")
     def bodies(folder: str) -> Response:
-        return Response(live_states.bodies(folder_of(studio, folder)), media_type=BYTES)
+        return Response(patiently(lambda: live_states.bodies(folder_of(studio, folder))), media_type=BYTES)
 
     @router.get("/runs/state")
     def state(folder: str, number: int = -1) -> Response:
-        return Response(live_states.state(folder_of(studio, folder), number), media_type=BYTES)
+        content = patiently(lambda: live_states.state(folder_of(studio, folder), number))
+        return Response(content, media_type=BYTES)
 
     @router.get("/runs/picture")
     def picture(folder: str, after: int = -1) -> Response:
@@ -81,6 +84,18 @@ def routes(studio: Studio) -> APIRouter:
         return Response(content, media_type=BYTES)
 
     return router
+
+
+def patiently(read: Callable[[], bytes]) -> bytes:
+    """What `read` gives, tried again where a run may have been between two states of its file."""
+    for wait in PATIENCE:
+        try:
+            return read()
+        except Refused:
+            raise
+        except Trouble:
+            time.sleep(wait)
+    return read()
 
 
 def teller(studio: Studio, runs: RunList) -> Callable[[], None]:
