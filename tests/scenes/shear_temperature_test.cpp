@@ -152,6 +152,31 @@ TEST(ShearTemperature, HasTheSameBitsAfterKillsAndOnTwoThreads) {
   EXPECT_GT(last.shear, 0.0);
 }
 
+/// A run that goes back to an earlier state takes the heat of then, and comes to the same again.
+TEST(ShearTemperature, GoesBackAndComesToTheSame) {
+  Case data = cooling_frame();
+  data.solver.duration = 0.1;
+  ThreadPool pool(1);
+  Scene scene = make_scene(data);
+  start(scene, pool);
+  const auto step_to = [&](double time) {
+    while (scene.time < time) {
+      EXPECT_FALSE(compute_forces(scene, pool));
+      move_plies(scene, pool);
+    }
+    return scene.plies[0].shear_heat;
+  };
+  const double then = step_to(0.05);
+  Snapshot good;
+  keep(scene, current_energies(scene, pool), good);
+  const double later = step_to(0.08);
+  EXPECT_GT(then, 0.0);
+  EXPECT_GT(later, 1.5 * then);
+  restore(scene, good);
+  EXPECT_EQ(scene.plies[0].shear_heat, then);
+  EXPECT_NEAR(step_to(0.08), later, 1e-3 * later); // bounds of the step may be renewed elsewhere
+}
+
 /// Two plies that cool while a ball forms them.
 TEST(ShearTemperature, FormsOverABall) {
   Case data = coarse_hemisphere({0.0, 0.25 * pi});
