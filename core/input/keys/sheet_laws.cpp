@@ -199,7 +199,7 @@ Rows sheet_law_rows() {
 
 namespace {
 
-constexpr Range melt_viscosity_range{.least = 0.0, .most = 1e12};
+constexpr Range melt_viscosity_range{.least = 0.0, .most = 1e9};
 constexpr Range usual_melt_viscosity{.least = 10.0, .most = 1e6};
 
 /// The melt of a sheet beside yarns, if it has one.
