@@ -22,7 +22,7 @@ HOOK = """
   if (window !== window.top) return; // reports have tests of their own
   const kept = window.plyform_controls = { seen: {}, used: {} };
   const CONTROL = "button, input, select, textarea, summary, a[href], [role=slider], [data-handle], circle.picked";
-  const plain = (text) => text.trim().replace(/[\\w.-]+\\/[\\w./-]+/g, "FILE")
+  const plain = (text) => text.trim().replace(/[\\w.-]+\\/[\\w./-]+|\\b[\\w-]+\\.toml\\b/g, "FILE")
     .replace(/\\b\\w+(\\.[\\w#]+)+/g, "KEY").replace(/\\d+/g, "#");
   const kind = (e) => (e.matches("select.way") ? "which of several keys" : e.type || e.tagName.toLowerCase());
   function nameOf(e) {
