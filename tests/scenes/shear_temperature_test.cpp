@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic shear that follows the temperature, in whole scenes: picture frames at two temperatures
 // and of a ply that cools.
-#include "core/model/motion.hpp"
 #include "core/model/reachable_temperature.hpp"
-#include "support/boundary_scenes.hpp"
 #include "support/kill_checks.hpp"
+#include "support/picture_frames.hpp"
 
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -12,18 +11,11 @@
 namespace plyform::shear_temperature_test {
 namespace {
 
-constexpr double pi = std::numbers::pi, side = 100.0, most = 50.0 * pi / 180.0;
+constexpr double pi = std::numbers::pi;
 
 /// A frame of 100 mm that shears to 50 degrees; torque over temperature is as given.
 Case frame_at(double celsius) {
-  Case data = stack_of({0.0}, rectangle(side, side, 25.0, MeshKind::alternating));
-  HingedFrame f;
-  const double a = 0.5 * side;
-  f.hinges = {Vec2(-a, -a), Vec2(a, -a), Vec2(a, a), Vec2(-a, a)};
-  f.stroke = 2.0 * side * std::cos(0.25 * pi - 0.5 * most) - side * std::sqrt(2.0);
-  data.boundaries = {{"frame", -1, f}};
-  set_friction(data, 0.0);
-  data.solver.duration = 1.0; // s: little inertia
+  Case data = picture_frame();
   data.fabrics[0].shear_over_temperature =
       TableFactor{{20.0, 100.0, 160.0, 180.0, 220.0}, {9.0, 5.0, 1.4, 1.0, 0.7}, 180.0};
   data.process.temperature = celsius;
@@ -43,36 +35,8 @@ double factor_of(const Case& data, double celsius) {
   return data.fabrics[0].shear_over_temperature.at(celsius);
 }
 
-double angle_of(const Case& data, double time) {
-  const double end = data.solver.duration;
-  const double stroke = motion_at(data.boundaries[0], std::min(time, end), end);
-  return 0.5 * pi - 2.0 * std::acos((side * std::sqrt(2.0) + stroke) / (2.0 * side));
-}
-
-/// mm^-2 times mm^2: unit cells in the frame.
-double cells_of(const Case& data) {
-  const Fabric& f = data.fabrics[0];
-  return f.families[0].density * f.families[1].density * side * side;
-}
-
-/// N, of the frame with f times the torque of the law in all cells.
-double load_of(const Case& data, double gamma, double f) {
-  return cells_of(data) * f * data.fabrics[0].crossings[0].shear.at(gamma).value /
-         (side * std::sin(0.25 * pi - 0.5 * gamma));
-}
-
-std::vector<Frame> frames_of(const Case& data) {
-  std::vector<Frame> frames;
-  RunHooks hooks;
-  hooks.frame = [&](const Frame& f) { frames.push_back(f); };
-  const RunResult run = run_case(data, 1, hooks);
-  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
-  EXPECT_LT(std::abs(run.last.energy.balance_error()), 0.01);
-  return frames;
-}
-
 TEST(ShearTemperature, FramesHaveLoadsInTheRatioOfTheirFactors) {
-  const std::vector<Frame> at_reference = frames_of(frame_at(180.0));
+  const std::vector<Frame> at_reference = outputs_of(frame_at(180.0));
   for (const double celsius : {120.0, 205.0}) {
     const Case data = frame_at(celsius);
     const double f = factor_of(data, celsius);
@@ -82,7 +46,7 @@ TEST(ShearTemperature, FramesHaveLoadsInTheRatioOfTheirFactors) {
       k *= f;
     const double soft = make_scene(by_law).plies[0].bound.soft; // 1/s^2, in the stable step
     EXPECT_NEAR(make_scene(data).plies[0].bound.soft, soft, 1e-9 * soft);
-    const std::vector<Frame> found = frames_of(data), wanted = frames_of(by_law);
+    const std::vector<Frame> found = outputs_of(data), wanted = outputs_of(by_law);
     ASSERT_EQ(found.size(), wanted.size());
     const double last = wanted.back().boundaries[0].force_N;
     for (std::size_t i = 0; i < found.size(); ++i)
@@ -102,17 +66,21 @@ TEST(ShearTemperature, OfAPlyThatCoolsIsThatOfItsTemperature) {
   data.solver.dwell = 0.5;
   double largest = 0.0;
   int judged = 0;
-  const std::vector<Frame> frames = frames_of(data);
+  const std::vector<Frame> frames = outputs_of(data);
   for (const Frame& frame : frames) {
-    const double gamma = angle_of(data, frame.time);
+    const double gamma = frame_angle(data, frame.time);
     const double f = factor_of(data, frame.plies[0].temperature[0]);
     EXPECT_LT(std::abs(frame.energy.balance_error()), 0.01) << frame.time;
     if (gamma < 10.0 * pi / 180.0) continue;
     ++judged;
-    const double off = frame.boundaries[0].force_N / load_of(data, gamma, f) - 1.0;
+    const double off =
+        frame.boundaries[0].force_N /
+            frame_load(data, gamma, f * data.fabrics[0].crossings[0].shear.at(gamma).value) -
+        1.0;
     EXPECT_NEAR(off, 0.0, 0.01) << frame.time;
     largest = std::max(largest, std::abs(off));
-    const double stored = cells_of(data) * f * data.fabrics[0].crossings[0].shear.at(gamma).energy;
+    const double stored =
+        frame_cells(data) * f * data.fabrics[0].crossings[0].shear.at(gamma).energy;
     EXPECT_NEAR(frame.energy.shear, stored, 0.01 * stored) << frame.time;
   }
   EXPECT_GE(judged, 6);
@@ -126,10 +94,10 @@ TEST(ShearTemperature, HeatIsTheIntegralOfEnergyOverTheFactor) {
   Case data = cooling_frame();
   data.solver.outputs = 200;
   double heat = 0.0;
-  const std::vector<Frame> frames = frames_of(data);
+  const std::vector<Frame> frames = outputs_of(data);
   const auto state_of = [&](const Frame& frame) {
-    const double w = data.fabrics[0].crossings[0].shear.at(angle_of(data, frame.time)).energy;
-    return std::pair(cells_of(data) * w, factor_of(data, frame.plies[0].temperature[0]));
+    const double w = data.fabrics[0].crossings[0].shear.at(frame_angle(data, frame.time)).energy;
+    return std::pair(frame_cells(data) * w, factor_of(data, frame.plies[0].temperature[0]));
   };
   for (std::size_t i = 1; i < frames.size(); ++i) {
     const auto [w0, f0] = state_of(frames[i - 1]);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shear that resists by its rate, in whole scenes: picture frames at several rates, relaxation
 // after a stop, and a draft.
-#include "core/model/motion.hpp"
-#include "support/boundary_scenes.hpp"
 #include "support/kill_checks.hpp"
+#include "support/picture_frames.hpp"
 
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -11,57 +10,23 @@
 namespace plyform::viscous_shear_scene_test {
 namespace {
 
-constexpr double pi = std::numbers::pi, side = 100.0;
-
-double stroke_at(double gamma) {
-  return 2.0 * side * std::cos(0.25 * pi - 0.5 * gamma) - side * std::sqrt(2.0);
-}
-double angle_at(double stroke) {
-  return 0.5 * pi - 2.0 * std::acos((side * std::sqrt(2.0) + stroke) / (2.0 * side));
-}
+constexpr double pi = std::numbers::pi;
 
 /// A frame of 100 mm that shears to 50 degrees in a process of some seconds.
 Case frame_of(const ViscousShear& law, double process, MeshKind mesh = MeshKind::alternating) {
-  Case data = stack_of({0.0}, rectangle(side, side, 25.0, mesh));
+  Case data = picture_frame(mesh);
   data.fabrics[0].crossings[0].viscous = law;
-  HingedFrame f;
-  const double a = 0.5 * side;
-  f.hinges = {Vec2(-a, -a), Vec2(a, -a), Vec2(a, a), Vec2(-a, a)};
-  f.stroke = stroke_at(50.0 * pi / 180.0);
-  data.boundaries = {{"frame", -1, f}};
-  set_friction(data, 0.0);
   data.solver.fibre_softening = 10.0; // the spring of the dashpot is hardly stretched
-  data.solver.duration = 1.0;         // s: little inertia
   data.process.duration = process;
   return data;
 }
 
-/// rad, at a time of the simulation; and 1/s of the process.
-double angle_of(const Case& data, double time) {
-  const Boundary& b = data.boundaries[0];
-  return angle_at(motion_at(b, std::min(time, data.solver.duration), data.solver.duration));
-}
+/// 1/s of the process, at a time of the simulation.
 double rate_of(const Case& data, double time) {
   const double h = 1e-4 * data.solver.duration;
   if (time >= data.solver.duration) return 0.0;
-  return (angle_of(data, time + h) - angle_of(data, time - h)) / (2.0 * h * data.process_time());
-}
-
-/// N, of the frame with this torque (N mm) in all cells.
-double load_of(const Case& data, double gamma, double torque) {
-  const Fabric& f = data.fabrics[0];
-  const double cells = f.families[0].density * f.families[1].density * side * side;
-  return cells * torque / (side * std::sin(0.25 * pi - 0.5 * gamma));
-}
-
-std::vector<Frame> frames_of(const Case& data) {
-  std::vector<Frame> frames;
-  RunHooks hooks;
-  hooks.frame = [&](const Frame& f) { frames.push_back(f); };
-  const RunResult run = run_case(data, 1, hooks);
-  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
-  EXPECT_LT(std::abs(run.last.energy.balance_error()), 0.01);
-  return frames;
+  return (frame_angle(data, time + h) - frame_angle(data, time - h)) /
+         (2.0 * h * data.process_time());
 }
 
 /// N mm s: torque at 1/s as large as the elastic one of the weave at 50 degrees.
@@ -76,13 +41,13 @@ void expect_loads(const ViscousShear& law, MeshKind mesh = MeshKind::alternating
     const Case data = frame_of(law, process, mesh);
     int judged = 0;
     double largest = 0.0;
-    for (const Frame& frame : frames_of(data)) {
-      const double gamma = angle_of(data, frame.time), rate = rate_of(data, frame.time);
+    for (const Frame& frame : outputs_of(data)) {
+      const double gamma = frame_angle(data, frame.time), rate = rate_of(data, frame.time);
       if (gamma < 10.0 * pi / 180.0 || rate < 0.3 / process) continue;
       ++judged;
       const double torque =
           data.fabrics[0].crossings[0].shear.at(gamma).value + law.torque(gamma, rate);
-      const double wanted = load_of(data, gamma, torque);
+      const double wanted = frame_load(data, gamma, torque);
       EXPECT_NEAR(frame.boundaries[0].force_N / wanted, 1.0, 0.01) << process << " " << gamma;
       largest = std::max(largest, std::abs(frame.boundaries[0].force_N / wanted - 1.0));
       for (std::size_t e = 0; e < frame.plies[0].shear_rate.size(); ++e) {
@@ -127,7 +92,7 @@ double branch_torque(const Case& data, const MaxwellBranch& branch, double time)
   double sum = 0.0;
   for (int i = 0; i < n; ++i) {
     const double s0 = time * i / n, s1 = time * (i + 1) / n;
-    sum += (angle_of(data, s1) - angle_of(data, s0)) *
+    sum += (frame_angle(data, s1) - frame_angle(data, s0)) *
            std::exp(-(time - 0.5 * (s0 + s1)) * data.process_time() / branch.time);
   }
   return branch.modulus * sum;
@@ -143,17 +108,17 @@ TEST(ViscousShearScene, TorqueRelaxesAfterAStop) {
   data.solver.outputs = 40;
   int held = 0, moving = 0;
   double largest = 0.0;
-  const std::vector<Frame> frames = frames_of(data);
+  const std::vector<Frame> frames = outputs_of(data);
   EXPECT_NEAR(frames.back().time, 2.0 * data.solver.duration, 0.01 * data.solver.duration);
   for (const Frame& frame : frames) {
-    const double gamma = angle_of(data, frame.time);
+    const double gamma = frame_angle(data, frame.time);
     if (gamma < 5.0 * pi / 180.0) continue;
     const double end = std::min(frame.time, data.solver.duration);
     const double since = (frame.time - end) * data.process_time(); // s of the process
     double sum = data.fabrics[0].crossings[0].shear.at(gamma).value;
     for (const MaxwellBranch& branch : law.branches)
       sum += branch_torque(data, branch, end) * std::exp(-since / branch.time);
-    const double wanted = load_of(data, gamma, sum);
+    const double wanted = frame_load(data, gamma, sum);
     EXPECT_NEAR(frame.boundaries[0].force_N / wanted, 1.0, 0.01) << frame.time;
     largest = std::max(largest, std::abs(frame.boundaries[0].force_N / wanted - 1.0));
     ++(since > 0.0 ? held : moving);
@@ -191,7 +156,7 @@ TEST(ViscousShearScene, AtAnotherTemperatureIsAsInAProcessOfAnotherLength) {
   warm.process.temperature = 200.0;
   const double f = warm.fabrics[0].flow.at(200.0);
   reference.process.duration = 10.0 / f;
-  const std::vector<Frame> one = frames_of(warm), other = frames_of(reference);
+  const std::vector<Frame> one = outputs_of(warm), other = outputs_of(reference);
   ASSERT_EQ(one.size(), other.size());
   for (std::size_t i = 0; i < one.size(); ++i)
     EXPECT_NEAR(one[i].boundaries[0].force_N, other[i].boundaries[0].force_N,
@@ -210,14 +175,14 @@ TEST(ViscousShearScene, MeltAtAnotherTemperatureIsAsInAProcessOfAnotherLength) {
   warm.process.temperature = 200.0;
   reference.process.temperature = longer.process.temperature = 180.0;
   reference.process.duration = 10.0 / warm.fabrics[0].flow.at(200.0);
-  const std::vector<Frame> one = frames_of(warm), other = frames_of(reference);
+  const std::vector<Frame> one = outputs_of(warm), other = outputs_of(reference);
   ASSERT_EQ(one.size(), other.size());
   const double last = one.back().boundaries[0].force_N;
   for (std::size_t i = 0; i < one.size(); ++i)
     EXPECT_NEAR(one[i].boundaries[0].force_N, other[i].boundaries[0].force_N, 1e-6 * last);
   const std::size_t middle = one.size() / 2;
   EXPECT_LT(one[middle].boundaries[0].force_N,
-            0.9 * frames_of(longer)[middle].boundaries[0].force_N);
+            0.9 * outputs_of(longer)[middle].boundaries[0].force_N);
 }
 
 TEST(ViscousShearScene, OfAPlyThatCoolsHasTheLoadOfItsTemperature) {
@@ -231,14 +196,14 @@ TEST(ViscousShearScene, OfAPlyThatCoolsHasTheLoadOfItsTemperature) {
   data.process.cooling = Cooling{0.0, 0.0, 0.02, {{0.0, 20.0}}};
   double largest = 0.0;
   int judged = 0;
-  for (const Frame& frame : frames_of(data)) {
-    const double gamma = angle_of(data, frame.time), rate = rate_of(data, frame.time);
+  for (const Frame& frame : outputs_of(data)) {
+    const double gamma = frame_angle(data, frame.time), rate = rate_of(data, frame.time);
     if (gamma < 10.0 * pi / 180.0 || rate < 0.03) continue;
     ++judged;
     const double celsius = frame.plies[0].temperature[0];
     const double torque = fabric.crossings[0].shear.at(gamma).value +
                           fabric.flow.at(celsius) * law.torque(gamma, rate);
-    const double off = frame.boundaries[0].force_N / load_of(data, gamma, torque) - 1.0;
+    const double off = frame.boundaries[0].force_N / frame_load(data, gamma, torque) - 1.0;
     EXPECT_NEAR(off, 0.0, 0.01) << celsius;
     largest = std::max(largest, std::abs(off));
   }

@@ -60,8 +60,8 @@ export class IdentifyResult {
     return report ? `${report.title}: ${report.words}. Written: ${record.about.output}` : "It has failed:";
   }
 
-  /** text: of a file that is no fabric's. */
-  parts(report, output, text) {
+  /** forCase: text of a file that is no fabric's, but goes into a case. */
+  parts(report, output, forCase) {
     const parts = [];
     for (const one of report.errors) {
       const place = `${one.file}${one.line > 1 ? `, line ${one.line}` : ""}`;
@@ -79,9 +79,9 @@ export class IdentifyResult {
       parts.push(element("p", { className: "warning",
         textContent: `Still without a law: ${law}; no case can use the fabric before.` }));
     }
-    if (text) {
+    if (forCase) {
       parts.push(element("p", { textContent: "Put this into a case, and name the law in contact.friction_law or in a "
-        + "[[contact.pair]]:" }), element("pre", { id: "identify-text", textContent: text }));
+        + "[[contact.pair]]:" }), element("pre", { id: "identify-text", textContent: forCase }));
       return parts;
     }
     parts.push(element("p", {}, element("a", { href: `#setup/${output}`,
@@ -115,7 +115,7 @@ export class IdentifyResult {
       this.x.addEventListener("change", () => this.draw());
       this.log = element("input", { type: "checkbox", id: "identify-log", checked: log });
       this.log.addEventListener("change", () => this.draw());
-      this.axes.append(labelled("Over", this.x), element("label", { className: "box" }, this.log, 
+      this.axes.append(labelled("Over", this.x), element("label", { className: "box" }, this.log,
         ` logarithmic ${this.fit.measured ? "coefficient" : "load"}`));
     }
     this.draw();
