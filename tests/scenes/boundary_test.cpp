@@ -5,6 +5,7 @@
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 #include "support/boundary_scenes.hpp"
+#include "support/picture_frames.hpp"
 #include "support/thread_checks.hpp"
 
 #include <cstring>
@@ -15,14 +16,6 @@ namespace plyform::boundary_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Boundary square_frame(double side, double stroke) {
-  HingedFrame f;
-  const double a = 0.5 * side;
-  f.hinges = {Vec2(-a, -a), Vec2(a, -a), Vec2(a, a), Vec2(-a, a)};
-  f.stroke = stroke;
-  return {"frame", -1, f};
-}
 
 Vec3 momentum(const PlyBody& ply) {
   Vec3 sum = Vec3::Zero();
@@ -186,18 +179,9 @@ TEST(BoundaryScene, StripAlongTheYarnsPullsWithItsStiffness) {
 
 // ---- picture frame ----
 
-/// The paper's (41), with the energy of all cells: F = A n_c Cs dgamma/dd.
-double frame_load(double side, double gamma) {
-  const Fabric f = glass_weave();
-  const double cells = f.families[0].density * f.families[1].density * side * side;
-  return cells * f.crossings[0].shear.at(gamma).value / (side * std::sin(0.25 * pi - 0.5 * gamma));
-}
-
 TEST(BoundaryScene, PictureFrameHasTheLoadOfTheCellsAndNoStrain) {
-  const double side = 100.0, most = 50.0 * pi / 180.0;
-  Case data = stack_of({0.0}, rectangle(side, side, 25.0));
-  data.boundaries = {
-      square_frame(side, 2.0 * side * std::cos(0.25 * pi - 0.5 * most) - side * std::sqrt(2.0))};
+  Case data = stack_of({0.0}, rectangle(frame_side, frame_side, 25.0));
+  data.boundaries = {square_frame(frame_side, frame_stroke(frame_end))};
   set_friction(data, 0.0);
   data.solver.fibre_softening = 10000.0; // large steps; even so the yarns hardly stretch
   data.solver.duration = 40.0;           // s: no inertia
@@ -213,12 +197,12 @@ TEST(BoundaryScene, PictureFrameHasTheLoadOfTheCellsAndNoStrain) {
       EXPECT_LT(std::abs(ply.families[0].strain[e]), 1e-4);
       EXPECT_LT(std::abs(ply.families[1].strain[e]), 1e-4);
     }
-    const double d = frame.boundaries.at(0).stroke_mm;
-    const double gamma = 0.5 * pi - 2.0 * std::acos((side * std::sqrt(2.0) + d) / (2.0 * side));
+    const double gamma = frame_angle_at(frame.boundaries.at(0).stroke_mm);
     if (gamma < 10.0 * pi / 180.0) continue;
     ++judged;
     EXPECT_NEAR(ply.shear_deg[0] * pi / 180.0, gamma, 1e-4);
-    const double wanted = frame_load(side, gamma);
+    const double wanted =
+        frame_load(data, gamma, data.fabrics[0].crossings[0].shear.at(gamma).value);
     EXPECT_NEAR(frame.boundaries[0].force_N, wanted, 0.005 * wanted) << gamma;
     for (std::size_t n = 0; n < ply.x.size(); ++n) {
       const bool across_x = std::abs(ply.x0[n].x()) > 49.0,

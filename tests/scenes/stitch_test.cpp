@@ -4,6 +4,7 @@
 #include "core/run/output_state.hpp"
 #include "core/run/run.hpp"
 #include "support/kill_checks.hpp"
+#include "support/picture_frames.hpp"
 #include "support/scene_checks.hpp"
 #include "support/thread_checks.hpp"
 
@@ -13,7 +14,7 @@
 namespace plyform::stitch_scene_test {
 namespace {
 
-constexpr double pi = std::numbers::pi, side = 100.0; // mm
+constexpr double pi = std::numbers::pi, side = frame_side; // mm
 
 /// A weave with a stitch along the diagonal of warp and weft.
 Fabric stitched_weave(const Stitch& stitch) {
@@ -38,20 +39,16 @@ struct FramePoint {
 std::vector<FramePoint> frame_test(const Fabric& fabric, bool other, double most = 50.0) {
   Case data = stack_of({0.0}, rectangle(side, side, 25.0));
   data.fabrics = {fabric};
-  HingedFrame f;
-  const double a = 0.5 * side;
-  f.hinges = {Vec2(-a, -a), Vec2(a, -a), Vec2(a, a), Vec2(-a, a)};
-  if (other) std::rotate(f.hinges.begin(), f.hinges.begin() + 1, f.hinges.end());
-  f.stroke = 2.0 * side * std::cos(0.25 * pi - 0.5 * most * pi / 180.0) - side * std::sqrt(2.0);
-  data.boundaries = {{"frame", -1, f}};
+  data.boundaries = {square_frame(side, frame_stroke(most * pi / 180.0))};
+  auto& hinges = data.boundaries[0].as<HingedFrame>().hinges;
+  if (other) std::rotate(hinges.begin(), hinges.begin() + 1, hinges.end());
   set_friction(data, 0.0);
   data.solver.fibre_softening = 10000.0; // large steps; even so the yarns hardly stretch
   data.solver.duration = 40.0;           // s: no inertia
   std::vector<FramePoint> points;
   RunHooks hooks;
   hooks.frame = [&](const Frame& frame) {
-    const double d = frame.boundaries.at(0).stroke_mm;
-    const double gamma = 0.5 * pi - 2.0 * std::acos((side * std::sqrt(2.0) + d) / (2.0 * side));
+    const double gamma = frame_angle_at(frame.boundaries.at(0).stroke_mm);
     const PlyFrame& ply = frame.plies[0];
     points.push_back({gamma, frame.boundaries[0].force_N * std::sin(0.25 * pi - 0.5 * gamma) / side,
                       ply.stitches.empty() ? 0.0 : ply.stitches[0].broken[0], frame.energy.stitch,

@@ -23,14 +23,25 @@ inline double frame_stroke(double gamma) {
          frame_side * std::sqrt(2.0);
 }
 
+/// rad, at a stroke (mm).
+inline double frame_angle_at(double stroke) {
+  return 0.5 * std::numbers::pi -
+         2.0 * std::acos((frame_side * std::sqrt(2.0) + stroke) / (2.0 * frame_side));
+}
+
+/// A frame around a square of that side, with this stroke, mm.
+inline Boundary square_frame(double side, double stroke) {
+  HingedFrame f;
+  const double a = 0.5 * side;
+  f.hinges = {Vec2(-a, -a), Vec2(a, -a), Vec2(a, a), Vec2(-a, a)};
+  f.stroke = stroke;
+  return {"frame", -1, f};
+}
+
 /// A frame that shears to frame_end in 1 s, with little inertia.
 inline Case picture_frame(MeshKind mesh = MeshKind::alternating) {
   Case data = stack_of({0.0}, rectangle(frame_side, frame_side, 25.0, mesh));
-  HingedFrame f;
-  const double a = 0.5 * frame_side;
-  f.hinges = {Vec2(-a, -a), Vec2(a, -a), Vec2(a, a), Vec2(-a, a)};
-  f.stroke = frame_stroke(frame_end);
-  data.boundaries = {{"frame", -1, f}};
+  data.boundaries = {square_frame(frame_side, frame_stroke(frame_end))};
   set_friction(data, 0.0);
   data.solver.duration = 1.0;
   return data;
@@ -39,9 +50,7 @@ inline Case picture_frame(MeshKind mesh = MeshKind::alternating) {
 /// rad, at a time (s) of the simulation.
 inline double frame_angle(const Case& data, double time) {
   const double end = data.solver.duration;
-  const double stroke = motion_at(data.boundaries[0], std::min(time, end), end);
-  return 0.5 * std::numbers::pi -
-         2.0 * std::acos((frame_side * std::sqrt(2.0) + stroke) / (2.0 * frame_side));
+  return frame_angle_at(motion_at(data.boundaries[0], std::min(time, end), end));
 }
 
 /// Unit cells in the frame.
