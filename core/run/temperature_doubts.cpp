@@ -18,8 +18,8 @@ std::vector<std::string> doubts_of_temperature(const Scene& s, const Frame& last
       if (!law.factor.depends() || (known.holds(*least) && known.holds(*most))) continue;
       found.push_back(fmt::format(
           "do not trust how {} resists where it is colder or hotter than its {} is known for: it "
-          "is "
-          "at {:.4g} to {:.4g} degC, the law of fabric {} goes from {}, and stays there as at its "
+          "is at {:.4g} to {:.4g} degC, the law of fabric {} goes from {}, and stays there as at "
+          "its "
           "end; measure it further",
           last.plies[p].name, law.of, *least, *most, fabric.name, known.text()));
     }
