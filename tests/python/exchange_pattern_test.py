@@ -20,6 +20,7 @@ try:
 
     from exchange_meshes import RADIUS, dome_ply, grid
     from exchange import trim_runs
+    from exchange.draw_pattern import svg_of, write_dxf
     from exchange.flat_pattern import edge_error, flat_pattern, outer_border
     from exchange.formed import FormedPly, FormedStack, read_formed
     from exchange.outline import (TrimLine, area_of, crosses_itself, distance_to, divided, join,
@@ -84,6 +85,32 @@ def check_curves(folder):
     (folder / "space.csv").write_text("x,y,z\n0,0,1\n1,0,2\n0,1,3\n", encoding="utf-8")
     assert np.allclose(read_outline(folder / "space.csv", True).points[:, 2], [1, 2, 3])
     assert (read_outline(folder / "space.csv", False).points[:, 2] == 0).all()
+
+
+def check_hole(folder):
+    """A flat ply with a hole has the trim line for its pattern and the hole as it was, and both come
+    back from the drawing; a hole that the pattern runs through is counted and not cut."""
+    flat, quads = grid(20)
+    flat, middles = 40.0 * flat, 40.0 * flat[quads].mean(axis=1)
+    quads = quads[(np.abs(middles - (8.0, 0.0)) > 8.0).any(axis=1)]
+    triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    x, ones = np.column_stack([flat, np.zeros(len(flat))]), np.ones((len(triangles), 1))
+    ply = FormedPly("flat", 30.0, x, x, triangles, ones * (1.0, 0, 0), ones * (0, 1.0, 0),
+                    np.zeros(len(ones)), np.full(len(ones), 0.6), 0.6, 90.0)
+    trim = np.column_stack([circle(30.0), np.zeros(360)])
+    pattern = flat_pattern(ply, TrimLine(trim, True), 1.0)
+    assert distance_to(pattern.outline, trim[:, :2]).max() < 1e-9 and pattern.notched == 0
+    (hole,) = pattern.holes
+    assert np.allclose(np.abs(hole - (8.0, 0.0)).max(axis=1), 8.0)
+    assert abs(abs(area_of(hole)) - 256.0) < 1e-9
+    assert abs(pattern.area - abs(area_of(pattern.outline)) + 256.0) < 1e-9
+    write_dxf(pattern, folder / "hole.dxf")
+    cuts = [np.array([point[:2] for point in cut.get_points()])
+            for cut in ezdxf.readfile(folder / "hole.dxf").modelspace().query("LWPOLYLINE")]
+    assert len(cuts) == 2 and np.allclose(cuts[0], pattern.outline) and np.allclose(cuts[1], hole)
+    assert svg_of(pattern).count("<polygon") == 2
+    through = flat_pattern(ply, TrimLine(trim * 0.5, True), 1.0)
+    assert through.notched == 1 and not through.holes
 
 
 def check_error():
@@ -245,6 +272,7 @@ def main():
         folder = Path(name)
         check_dome()
         check_curves(folder)
+        check_hole(folder)
         check_error()
         check_crossing()
         check_best(folder)

@@ -27,8 +27,8 @@ def layer_of(family: str) -> str:
 
 
 def write_dxf(pattern: Pattern, path: Path) -> None:
-    """A closed polyline on layer CUT, the direction of the first family as a line on a layer that is
-    called as it is, WARP of a weave, the name on layer TEXT."""
+    """Closed polylines on layer CUT, outline and holes; the direction of the first family as a line on
+    a layer that is called as it is, WARP of a weave; the name on layer TEXT."""
     import ezdxf
     yarns = layer_of(pattern.yarns)
     drawing = ezdxf.new("R2010")
@@ -36,7 +36,8 @@ def write_dxf(pattern: Pattern, path: Path) -> None:
     for name, colour in (("CUT", 1), (yarns, 5), ("TEXT", 7)):
         drawing.layers.add(name, color=colour)
     space = drawing.modelspace()
-    space.add_lwpolyline(pattern.outline, close=True, dxfattribs={"layer": "CUT"})
+    for curve in (pattern.outline, *pattern.holes):
+        space.add_lwpolyline(curve, close=True, dxfattribs={"layer": "CUT"})
     ends = yarn_line(pattern)
     space.add_line(*ends, dxfattribs={"layer": yarns})
     size = 0.03 * float(np.ptp(pattern.outline[:, 0]))
@@ -51,13 +52,17 @@ def svg_of(pattern: Pattern) -> str:
     low = pattern.outline.min(axis=0) - MARGIN
     wide, high = pattern.outline.max(axis=0) + MARGIN - low
     (x1, y1), (x2, y2) = yarn_line(pattern)
-    points = " ".join(f"{x:.4f},{-y:.4f}" for x, y in pattern.outline)
+    cuts = "\n".join(
+        f'<polygon id="{name}" points="{" ".join(f"{x:.4f},{-y:.4f}" for x, y in curve)}" fill="none" '
+        'stroke="#d00000" stroke-width="0.25"/>'
+        for name, curve in (("cut", pattern.outline),
+                            *((f"hole{k}", hole) for k, hole in enumerate(pattern.holes, 1))))
     size = 0.03 * wide
     return f'''<?xml version="1.0" encoding="UTF-8"?>
 <svg xmlns="http://www.w3.org/2000/svg" width="{wide:.4f}mm" height="{high:.4f}mm" \
 viewBox="{low[0]:.4f} {-low[1] - high:.4f} {wide:.4f} {high:.4f}">
 <title>{escape(pattern.ply)}</title>
-<polygon id="cut" points="{points}" fill="none" stroke="#d00000" stroke-width="0.25"/>
+{cuts}
 <line id="yarns" x1="{x1:.4f}" y1="{-y1:.4f}" x2="{x2:.4f}" y2="{-y2:.4f}" stroke="#0040d0" \
 stroke-width="0.5"/>
 <text x="{x1:.4f}" y="{-y1 + 1.5 * size:.4f}" font-size="{size:.2f}" font-family="sans-serif">\

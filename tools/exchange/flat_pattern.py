@@ -2,7 +2,7 @@
 """Where a ply must be cut so that the formed part ends at its trim line: the trim line on the formed
 ply, taken back to the flat blank; and how far a formed edge is from a trim line."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class Pattern:
     strip_area: float      # mm2, of the pattern's box along and across these yarns
     blank_strip_area: float  # mm2, of the formed ply's
     beyond: float          # mm: how far the trim line lies outside of the formed ply, at most
+    holes: list[np.ndarray] = field(default_factory=list)  # of the blank that lie in it, each k x 2
+    notched: int = 0       # holes of the blank that its outline runs through: they are not cut
 
 
 def flat_pattern(ply: FormedPly, trim: TrimLine, spacing: float) -> Pattern:
@@ -56,16 +58,41 @@ def flat_pattern(ply: FormedPly, trim: TrimLine, spacing: float) -> Pattern:
         raise Trouble(f"the pattern of ply {ply.name} crosses itself: the trim line runs over a "
                       "fold of the ply, where it has no one place on the blank")
     angle = ply.angles_deg[0]
-    return Pattern(ply.name, ply.families[0], angle, flat, blank_area(ply), abs(area_of(flat)),
+    holes, notched = holes_in(ply, flat)
+    return Pattern(ply.name, ply.families[0], angle, flat, blank_area(ply), area_with(flat, holes),
                    strip_area(flat, angle), strip_area(ply.x0[:, :2], angle),
-                   float(distance.max()))
+                   float(distance.max()), holes, notched)
+
+
+def area_with(outline: np.ndarray, holes: list[np.ndarray]) -> float:
+    return abs(area_of(outline)) - sum(abs(area_of(hole)) for hole in holes)
+
+
+def holes_in(ply: FormedPly, outline: np.ndarray) -> tuple[list[np.ndarray], int]:
+    """The holes of the flat blank that lie in the outline, and how many it runs through."""
+    flat, outer = ply.x0[:, :2], set(outer_border(ply).tolist())
+    holes = [flat[loop] for loop in borders(ply) if loop[0] not in outer]
+    there = [inside(hole, outline) for hole in holes]
+    return ([hole for hole, inner in zip(holes, there) if inner.all()],
+            sum(inner.any() and not inner.all() for inner in there))
+
+
+def inside(points: np.ndarray, curve: np.ndarray) -> np.ndarray:
+    """Whether points (k x 2) are in a closed curve (c x 2): a line along x from each crosses it an odd
+    number of times."""
+    a, b = curve, np.roll(curve, -1, axis=0)
+    x, y = points[:, :1], points[:, 1:]
+    spans = (a[:, 1] <= y) != (b[:, 1] <= y)
+    rise = np.where(a[:, 1] == b[:, 1], 1.0, b[:, 1] - a[:, 1])
+    at = a[:, 0] + (y - a[:, 1]) * (b[:, 0] - a[:, 0]) / rise
+    return (spans & (at > x)).sum(axis=1) % 2 == 1
 
 
 def blend(one: Pattern, two: Pattern, part: float) -> Pattern:
     """Between two patterns of a ply of the same trim line and spacing, `part` of the way from the first:
     their points are those of the same points of the trim line."""
     outline = one.outline + part * (two.outline - one.outline)
-    return replace(two, outline=outline, area=abs(area_of(outline)),
+    return replace(two, outline=outline, area=area_with(outline, two.holes),
                    strip_area=strip_area(outline, two.angle_deg))
 
 
@@ -106,7 +133,13 @@ def edge_error(ply: FormedPly, trim: TrimLine) -> tuple[float, float]:
 
 
 def outer_border(ply: FormedPly) -> np.ndarray:
-    """Nodes of the longest closed border, in order."""
+    """Nodes of the border round it all, in order."""
+    loops = borders(ply)
+    return loops[int(np.argmax([abs(area_of(ply.x0[loop][:, :2])) for loop in loops]))]
+
+
+def borders(ply: FormedPly) -> list[np.ndarray]:
+    """Nodes of each closed border, in order."""
     alone = border_edges(ply.triangles)
     ends = np.vstack([ply.triangles[:, [k, (k + 1) % 3]][alone[:, k]] for k in range(3)])
     after = dict(ends.tolist())
@@ -119,5 +152,4 @@ def outer_border(ply: FormedPly) -> np.ndarray:
             loop.append(node)
             node = after.pop(node)
         loops.append(np.array(loop))
-    flat = [abs(area_of(ply.x0[loop][:, :2])) for loop in loops]
-    return loops[int(np.argmax(flat))]
+    return loops
