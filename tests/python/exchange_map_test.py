@@ -253,8 +253,42 @@ def check_cover():
     assert abs(sample(mesh, 1.0).areas.sum() - 40000.0) < 1e-6
 
 
+def on_cone(flat):
+    """Points of a disc on a cone of 45 degrees below them, and what x and y become there."""
+    distance = np.linalg.norm(flat, axis=1)[:, None]
+    slope = flat / distance
+    return (np.hstack([flat, -distance]),
+            *(np.column_stack([np.full(len(flat), 1.0 - k), np.full(len(flat), float(k)), -slope[:, k]])
+              for k in (0, 1)))
+
+
+def check_seam():
+    """A cone meshed round its axis, its nodes double along the seam: the angles there go on as they do
+    elsewhere, within the change from an element to the next."""
+    flat, quads = grid(61)
+    flat = 61.0 * flat
+    triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    x, (_, warp, weft) = on_cone(flat)[0], on_cone(flat[triangles].mean(axis=1))
+    ones = np.ones(len(triangles))
+    ply = FormedPly("cone", 0.0, np.column_stack([flat, 0 * flat[:, 0]]), x, triangles, unit(warp),
+                    unit(weft), 0 * ones, 0.6 * ones, 0.6, 90.0)
+    rings, round_it = np.linspace(20.0, 50.0, 11), np.linspace(0.0, 2 * np.pi, 73)
+    nodes = on_cone(np.array([(r * np.cos(a), r * np.sin(a)) for a in round_it for r in rings]))[0]
+    first = np.array([[a * 11 + r for r in range(10)] for a in range(72)]).ravel()
+    mesh = shell_mesh(nodes, np.column_stack([first, first + 1, first + 12, first + 11]))
+    (mapped,), _ = map_all([ply], mesh, 5.0, 0.5, False)
+    assert mapped.covered().all()
+    exact = unit(on_cone(centroids(mesh)[:, :2])[1])
+    assert angle_between(mapped.warp, exact).max() < 0.3
+    angles = Layup(mesh, [mapped], (1.0, 1.0, 0.0), "", False).angles(mapped)[0].reshape(72, 10)
+    change = np.abs((np.roll(angles, -1, axis=0) - angles + 90.0) % 180.0 - 90.0).max(axis=1)
+    print(f"cone: angles change by {change[-1]:.2f} degrees over its seam, {change.max():.2f} at most")
+    assert change[-1] < 1.05 * np.median(change)
+
+
 if __name__ == "__main__":
     check_closest()
+    check_seam()
     check_cover()
     check_dome()
     check_there_and_back()
