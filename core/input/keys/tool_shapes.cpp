@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/tool_shapes.hpp"
 
+#include "contact/shapes/self_meeting.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/overrides.hpp"
 #include "core/input/keys/point_list.hpp"
@@ -111,7 +112,15 @@ ToolShape read_torus(const ShapeSection& s) {
 Profile read_section(const ShapeSection& s, const PointWords& words) {
   const TomlNode* points = given(s.tool, "points");
   if (!points) return {};
-  return read_points(*points, item_of(s.tool, "points"), words, false, s.diagnostics);
+  const std::size_t errors = s.diagnostics.errors.size();
+  Profile section = read_points(*points, item_of(s.tool, "points"), words, false, s.diagnostics);
+  if (s.diagnostics.errors.size() > errors) return section;
+  if (const std::optional<Vec2> place = self_meeting(section))
+    value_error(
+        s.tool, "points",
+        fmt::format("cross or touch each other at ({:.6g}, {:.6g})", place->x(), place->y()),
+        "list the points in order along the section, each once", s.diagnostics);
+  return section;
 }
 
 ToolShape read_profile(const ShapeSection& s) {
@@ -228,6 +237,7 @@ Rows shape_rows() {
        .unit = "mm",
        .ranges = {place_range, place_range, length_or_zero},
        .least_items = 2,
+       .most_items = 2000, // half a megabyte each, as each goes round the axis
        .of = "shape",
        .with = {"profile", "extrusion"},
        .meaning = "points [r, z] of a profile, turned about the axis, or [x, z] of an extrusion, "
