@@ -76,11 +76,14 @@ struct ContactLaw {
   FrictionLawPtr sliding = {}; ///< instead of `friction`; null: Coulomb's law
   double process_time = 1.0;   ///< s of the process in each simulated second
   double share = 1.0;    ///< of the area on which `sliding` acts: half of it in each of two passes
+  double memory = 0.0;   ///< s of the process, T of `sliding`
   double film_gap = 0.0; ///< mm, gap up to which a film still fills it; 0: only what touches slides
 
   bool rubs() const { return sliding || friction > 0.0; } ///< whether it has friction at all
   /// Whether its friction goes by the speed.
   bool has_film() const { return sliding && sliding->has_rates(); }
+  /// Whether its friction falls with the speed somewhere, and asks how fast each place slid lately.
+  bool slows() const { return sliding && sliding->falls(); }
   /// Whether it asks for the temperatures of both bodies.
   bool by_temperature() const { return sliding && sliding->spec().flow.factor; }
 
@@ -151,18 +154,22 @@ struct SlidingCall {
   const FrictionLaw& law;
   double per_dt; ///< 1/s, inverse of the time that the step takes in the process; 0: none
   double share;  ///< of ContactLaw
+  double memory; ///< s of the process, likewise
   SlidingSeen seen{};
 
   SlidingCall(const ContactLaw& contact, double dt)
       : law(*contact.sliding), per_dt(dt > 0.0 ? 1.0 / (dt * contact.process_time) : 0.0),
-        share(contact.share) {}
+        share(contact.share), memory(contact.memory) {}
   static double stuck(void* call, const SlidingPlace& place) {
     auto& c = *static_cast<SlidingCall*>(call);
     SlidingPlace whole = place;
     whole.stiffness /= c.share, whole.pressure /= c.share, whole.area *= c.share;
     const double viscosity = c.law.spec().flow_at(place.celsius);
+    if (whole.lately) begin_sliding(whole, c.per_dt);
     const double left = c.law.stuck(whole, c.per_dt, viscosity);
-    c.law.note(whole, whole.stretch - left, c.per_dt, viscosity, c.seen);
+    const double y = whole.stretch - left;
+    c.law.note(whole, y, c.per_dt, viscosity, c.seen);
+    if (whole.lately) follow_sliding(whole, y, c.per_dt, c.memory);
     return left;
   }
 };
@@ -172,6 +179,7 @@ inline void ask(ContactKernelLaw& kernel, std::optional<SlidingCall>& call) {
   if (!call) return;
   kernel.friction = 1.0;
   kernel.stuck = SlidingCall::stuck, kernel.sliding = &*call;
+  kernel.lately = call->law.falls();
 }
 
 /// Sums, maxima and minima over the points of one contact.

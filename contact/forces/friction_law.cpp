@@ -21,6 +21,8 @@ std::size_t end_of_piece(std::span<const CurvePoint> points, double at) {
 constexpr int lowest_rate = -40, highest_rate = 40; // 1e-12 to 1e12 1/s
 constexpr int lowest_hersey = -50, highest_hersey = 30;
 
+constexpr double unsteady_from = 0.1; // of mu
+
 } // namespace
 
 double on_pieces(std::span<const CurvePoint> points, double at) {
@@ -68,6 +70,17 @@ OctaveTable::Answer OctaveTable::at(double x, bool proportional) const {
   return {value_[i] + (along - piece) * rise, rise * pieces * per_octave};
 }
 
+OctaveTable OctaveTable::falls() const {
+  OctaveTable fallen = *this;
+  double before = at_zero_, sum = 0.0;
+  for (double& value : fallen.value_) {
+    sum += std::max(before - value, 0.0);
+    before = value, value = sum;
+  }
+  fallen.at_zero_ = 0.0;
+  return fallen;
+}
+
 double FrictionLawSpec::hersey(double number) const {
   if (curve.empty()) {
     const double rubbing = boundary > 0.0 ? boundary * std::exp(-number / transition) : 0.0;
@@ -106,10 +119,28 @@ FrictionLaw::FrictionLaw(FrictionLawSpec spec) : spec_(std::move(spec)) {
     hersey_ =
         OctaveTable([&](double number) { return spec_.hersey(number); }, lowest_hersey,
                     highest_hersey, spec_.curve.empty() ? spec_.boundary : spec_.curve[0].value);
+  if (spec_.kind != FrictionLawSpec::Kind::hersey) return;
+  falls_ = hersey_.falls();
+  if (falls_->at(std::ldexp(1.0, highest_hersey), false).value == 0.0) falls_.reset();
 }
 
 double FrictionLaw::by_angle(double angle) const {
   return spec_.over_angle.empty() ? 1.0 : on_pieces(spec_.over_angle, angle);
+}
+
+double FrictionLaw::drag(double speed, double viscosity) const {
+  const double h = spec_.film > 0.0 ? spec_.film : 1.0;
+  return viscosity * h * flow_.at(speed / h, true).value;
+}
+
+OctaveTable::Answer FrictionLaw::coefficient(const SlidingPlace& place, double number,
+                                             double viscosity, double pressure) const {
+  OctaveTable::Answer mu = hersey_.at(number, spec_.film_beyond);
+  if (!falls_ || !place.lately) return mu;
+  const OctaveTable::Answer now = falls_->at(number, false);
+  const double usual = falls_->at(drag(*place.lately, viscosity) / pressure, false).value;
+  mu = {mu.value + 2.0 * (now.value - usual), mu.slope + 2.0 * now.slope};
+  return mu.value > 0.0 ? mu : OctaveTable::Answer{0.0, 0.0};
 }
 
 OctaveTable::Answer FrictionLaw::traction(const SlidingPlace& place, double speed,
@@ -123,9 +154,9 @@ OctaveTable::Answer FrictionLaw::traction(const SlidingPlace& place, double spee
   const OctaveTable::Answer flow = flow_.at(speed / h, true);
   if (s.kind == FrictionLawSpec::Kind::film)
     return {by * (s.yield + viscosity * flow.value) + tack, by * viscosity * flow.slope / h};
-  const double drag = viscosity * h * flow.value; // eta v
   const double pressure = std::max(place.pressure, 1e-12);
-  const OctaveTable::Answer mu = hersey_.at(drag / pressure, s.film_beyond);
+  const OctaveTable::Answer mu =
+      coefficient(place, viscosity * h * flow.value / pressure, viscosity, pressure);
   return {by * pressure * mu.value + tack, by * mu.slope * viscosity * flow.slope};
 }
 
@@ -169,8 +200,13 @@ void FrictionLaw::note(const SlidingPlace& place, double y, double per_dt, doubl
     seen.temperature.add(place.celsius, work, {spec_.flow.least, 0.0}, {spec_.flow.most, 0.0});
   if (spec_.kind != FrictionLawSpec::Kind::hersey) return;
   const auto [first, last] = ends(spec_.curve);
-  const double drag = viscosity * h * flow_.at(speed / h, true).value;
-  seen.hersey.add(drag / std::max(place.pressure, 1e-12), work, first, last);
+  const double pressure = std::max(place.pressure, 1e-12);
+  const double number = drag(speed, viscosity) / pressure;
+  seen.hersey.add(number, work, first, last);
+  if (!falls_ || !place.lately) return;
+  const double steady = hersey_.at(number, spec_.film_beyond).value;
+  const double now = coefficient(place, number, viscosity, pressure).value;
+  if (std::abs(now - steady) > unsteady_from * steady) seen.unsteady += work;
 }
 
 } // namespace plyform

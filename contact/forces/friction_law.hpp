@@ -27,9 +27,25 @@
 //
 //   k_t (S - y) = tau(y / dt),  dt: s, the time that the step takes in the process          (I)
 //
-// whose left side falls and whose right side rises with y, so that it has one answer (where mu
-// falls with H, one of several). It is backward Euler's rule of a spring and a dashpot in series:
-// stable at any step, and the spring alone counts for the stable one.
+// whose left side falls and whose right side rises with y, so that it has one answer. It is
+// backward Euler's rule of a spring and a dashpot in series: stable at any step, and the spring
+// alone counts for the stable one.
+//
+// Where mu falls with H, as on the left of a Stribeck curve, friction at the speed of the moment
+// would set every spring swinging, that of the contact, a number of the solver, first of all: such
+// a law alone says nothing of the motion of what is elastic. What was measured is the friction of
+// steady sliding, which surfaces take a while to find: they answer a sudden change of speed with a
+// rise, and come to the steady value while the speed stays (Dieterich, J. Geophys. Res. 84, 1979;
+// Ruina, ibid. 88, 1983, both of rock). With the falls of mu up to a Hersey number, and the speed u
+// at which the place slid lately,
+//
+//   F(H) = int_0^H max(-dmu/dH, 0) dH,  du/dt = (|v| - u) / T                               (M)
+//   tau = f_a f_s p (mu(H(v)) + 2 F(H(v)) - 2 F(H(u))) + tau_t, at least 0                  (R)
+//
+// which is (L) when v = u, and rises with v at a given u by |dmu/dH|. A spring k under it slides
+// steadily if k T > -dtau/dv, whatever the step; a mass on it, if also T is longer than its swing
+// over 2 pi. T is memory_share of the duration, as tools' forces are told over such a time
+// (core/solver/force_filter.hpp). Laws that only rise do not ask for u.
 #pragma once
 
 #include "contact/simd/contact_points.hpp"
@@ -38,6 +54,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,6 +83,8 @@ public:
   OctaveTable(const std::function<double(double)>& f, int low, int high, double at_zero);
   /// Beyond the highest level, or in proportion.
   Answer at(double x, bool proportional) const;
+  /// How far f has fallen in all from 0 on, F of (M); level beyond the highest.
+  OctaveTable falls() const;
 
 private:
   static constexpr int pieces = 32; ///< of an octave: 1e-4 of the value
@@ -127,8 +146,12 @@ struct RangeSeen {
 /// viscosity follows them.
 struct SlidingSeen {
   RangeSeen hersey, rate, temperature;
-  bool finite() const { return hersey.finite() && rate.finite() && temperature.finite(); }
+  double unsteady = 0.0; ///< N mm, of the work, where (R) is off the curve by more than a tenth
+  bool finite() const {
+    return hersey.finite() && rate.finite() && temperature.finite() && std::isfinite(unsteady);
+  }
   void add(const SlidingSeen& more) {
+    unsteady += more.unsteady;
     hersey.add(more.hersey);
     rate.add(more.rate);
     temperature.add(more.temperature);
@@ -141,9 +164,12 @@ public:
   explicit FrictionLaw(FrictionLawSpec spec);
   const FrictionLawSpec& spec() const { return spec_; }
   bool has_rates() const { return spec_.has_rates(); }
+  /// Whether its friction falls with the speed anywhere.
+  bool falls() const { return falls_.has_value(); }
   /// f_a at an angle (rad).
   double by_angle(double angle) const;
-  /// tau at a speed (mm/s) and its slope by that. viscosity: f(T).
+  /// tau at a speed (mm/s) and its slope by that: (R), or (L) without place.lately. viscosity:
+  /// f(T).
   OctaveTable::Answer traction(const SlidingPlace& place, double speed, double viscosity) const;
   /// S - y of (I), mm. per_dt: 1/s, inverse of dt; 0 where no time has passed: all of it is kept.
   double stuck(const SlidingPlace& place, double per_dt, double viscosity) const;
@@ -152,10 +178,32 @@ public:
             SlidingSeen& seen) const;
 
 private:
+  /// mu at H, or what (R) has in its place, and its slope.
+  OctaveTable::Answer coefficient(const SlidingPlace& place, double number, double viscosity,
+                                  double pressure) const;
+  /// eta v, N/mm.
+  double drag(double speed, double viscosity) const;
+
   FrictionLawSpec spec_;
   OctaveTable flow_;   ///< eta times rate, N/mm^2, over the rate, 1/s; or eta v over v without h
   OctaveTable hersey_; ///< mu over mm
+  std::optional<OctaveTable> falls_; ///< F over mm; nothing: mu does not fall
 };
+
+/// T of (M) over the duration of a run.
+constexpr double memory_share = 1.0 / 200.0;
+
+/// u of a place whose faces have just met is the speed at which they slide then. per_dt: 1/s, as of
+/// FrictionLaw::stuck.
+inline void begin_sliding(const SlidingPlace& place, double per_dt) {
+  if (place.held == 0.0 && place.slip == 0.0) *place.lately = place.stretch * per_dt;
+}
+
+/// (M) over a step in which the place slid by y (mm); exact for a speed that stays. memory: T, s.
+inline void follow_sliding(const SlidingPlace& place, double y, double per_dt, double memory) {
+  if (!(per_dt > 0.0 && memory > 0.0)) return;
+  *place.lately += (y * per_dt - *place.lately) * -std::expm1(-1.0 / (per_dt * memory));
+}
 
 using FrictionLawPtr = std::shared_ptr<const FrictionLaw>;
 
@@ -171,10 +219,11 @@ void each_member(RangeSeen& seen, F&& f) {
 }
 template <class F>
 void each_member(SlidingSeen& seen, F&& f) {
-  auto& [hersey, rate, temperature] = seen;
+  auto& [hersey, rate, temperature, unsteady] = seen;
   f("hersey", hersey);
   f("rate", rate);
   f("temperature", temperature);
+  f("unsteady", unsteady);
 }
 
 } // namespace plyform

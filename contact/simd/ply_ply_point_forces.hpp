@@ -22,6 +22,7 @@ struct SimdPoints {
   Doubles by_angle;  ///< f_a of contact/forces/friction_law.hpp, if the law asks for it
   Doubles celsius;   ///< degC, of the film between the plies there; NaN: not asked for
   SimdHistory memory;
+  double* lately[lanes]; ///< of SlidingPlace, if the law asks for it
 };
 
 /// Weights of corners b and c at the closest points.
@@ -62,7 +63,9 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
     const Vectors turn = per_size * (v2 * x.b - v1 * x.c - spin * n); // (W')
     const Vectors slip = motion - cross(turn, arm);                   // (P)
     const Vectors& s = p.memory.s;
-    const SimdSliding by{p.by_angle, per_thickness, p.celsius};
+    SimdSliding by{p.by_angle, per_thickness, p.celsius, {}};
+    for (int i = 0; i < lanes && k.lately; ++i)
+      by.lately[i] = p.lately[i];
     const Vectors tangential =
         friction_of(k, area, pressure, normal, s + cross(turn, s), slip, by, touch, p.memory, sums);
     f.on_node = f.on_node + tangential;

@@ -41,6 +41,8 @@ struct PairReport {
   std::string friction_law;                    ///< that holds instead of the coefficient, if any
   std::optional<CurveRange> hersey, film_rate; ///< Hersey numbers, mm; rates of the film, 1/s
   std::optional<CurveRange> film_temperature;  ///< degC, where its viscosity follows it
+  double unsteady_share = 0; ///< of the work of sliding, at speeds at which friction falls and that
+                             ///< did not stay: contact/forces/friction_law.hpp
   bool touched() const { return deepest_mm > 0; }
 };
 

@@ -167,11 +167,11 @@ void check(const ContactTotals& sums) {
          "sums of a contact");
 }
 
-/// Greatest depths of contacts, one per node of a ply of n nodes, whose law asks for them.
-void check_compacted(const std::vector<double>& compacted, std::size_t n) {
-  expect(compacted.empty() || compacted.size() == n, "how far plies were pressed");
-  for (const double depth : compacted)
-    expect(sound(depth) && depth >= 0.0, "how far plies were pressed");
+/// Greatest depths of contacts, or speeds, one per node of n, whose law asks for them.
+void check_remembered(const std::vector<double>& values, std::size_t n) {
+  expect(values.empty() || values.size() == n, "what places of contact remember");
+  for (const double value : values)
+    expect(sound(value) && value >= 0.0, "what places of contact remember");
 }
 
 bool fits(const SurfaceHint& hint, std::size_t facets) {
@@ -201,7 +201,7 @@ void check(const ToolState& tool, const ToolPlyContact& c, std::size_t n) {
   for (const SurfaceHint& hint : c.hints)
     expect(fits(hint, facets), "a facet of a tool");
   expect(c.force.size() == (c.points.empty() ? 0 : n) && all_sound(c.force), "forces of a tool");
-  check_compacted(c.compacted, n);
+  check_remembered(c.compacted, n), check_remembered(c.lately, n);
   check(c.sums);
   expect(known(c.renew_depth), "the depth of a contact");
 }
@@ -244,11 +244,11 @@ void check(const Scene& s, const PlyContact& pair) {
            "faces near a node");
     expect(sound(p.memory) && p.area > 0.0 && sound(p.area) && known(p.gap) && sound(p.w[0]) &&
                sound(p.w[1]) && known(p.other) && known(p.gap_when_deactivated) && p.side >= -1 &&
-               p.side <= 1,
+               p.side <= 1 && sound(p.lately) && p.lately >= 0.0,
            "a contact of plies");
   }
   check(c.list, c.points.size());
-  check_compacted(c.compacted, nodes);
+  check_remembered(c.compacted, nodes);
   check(c.sums);
   expect(known(c.renew_depth), "the depth of a contact");
 }

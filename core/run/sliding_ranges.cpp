@@ -41,12 +41,14 @@ void add_ranges(const FrictionLaw& law, const SlidingSeen& seen, PairReport& pai
   add_range(law.spec().curve, seen.hersey, pair.hersey);
   add_range(law.spec().viscosity_curve, seen.rate, pair.film_rate);
   add_range(ends_of(law.spec().flow), seen.temperature, pair.film_temperature);
+  pair.unsteady_share += seen.unsteady;
 }
 
 void end_ranges(PairReport& pair) {
   for (std::optional<CurveRange>* range : {&pair.hersey, &pair.film_rate, &pair.film_temperature})
     if (*range && pair.friction_mJ > 0.0)
       (*range)->below_share /= pair.friction_mJ, (*range)->above_share /= pair.friction_mJ;
+  if (pair.friction_mJ > 0.0) pair.unsteady_share /= pair.friction_mJ;
 }
 
 std::vector<std::string> doubts_of_sliding(const std::vector<PairReport>& pairs) {
@@ -55,6 +57,13 @@ std::vector<std::string> doubts_of_sliding(const std::vector<PairReport>& pairs)
     doubt_range(pair, pair.hersey, "Hersey numbers", "mm", "curve", found);
     doubt_range(pair, pair.film_rate, "rates", "1/s", "viscosity_curve", found);
     doubt_range(pair, pair.film_temperature, "temperatures", "degC", "temperature", found);
+    if (pair.unsteady_share > doubtful_sliding_share)
+      found.push_back(fmt::format(
+          "do not trust friction of {} with {}: {:.0f} % of the work of sliding was done where "
+          "friction falls with the speed (friction.{}) and the speed did not stay: what is elastic "
+          "sticks and jumps there, or speeds change within a two-hundredth of the run; stiffer "
+          "grips or plies, another speed, or a longer solver.duration",
+          pair.a, pair.b, 100.0 * pair.unsteady_share, pair.friction_law));
   }
   return found;
 }

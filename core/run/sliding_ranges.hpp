@@ -11,7 +11,7 @@
 namespace plyform {
 
 /// A run that has done more than this share of the work of sliding of a pair outside a curve is
-/// doubtful: it went by the curve's ends.
+/// doubtful, as it went by the curve's ends; so is one that slid unsteadily for that share.
 constexpr double doubtful_sliding_share = 0.1;
 
 /// Adds what one contact of a pair has seen. Shares are of work, N mm, until end_ranges.

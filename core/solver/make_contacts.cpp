@@ -68,6 +68,7 @@ void rub(const Case& data, int a, int b, double distance, ContactLaw& law) {
   if (plain) return;
   law.sliding = named;
   law.process_time = data.process_time();
+  law.memory = memory_share * data.solver.duration * law.process_time;
   law.film_gap = std::min(named->spec().film_thickness(), thickest * distance);
 }
 

@@ -143,6 +143,88 @@ TEST(FrictionLaw, SolvesForTheSlipOfAStepOverManyDecades) {
           }
 }
 
+/// Left of its minimum mu falls.
+FrictionLawSpec falling() {
+  FrictionLawSpec formula = curve_of({});
+  formula.boundary = 0.18, formula.transition = 3e-3, formula.hydrodynamic = 0.9,
+  formula.exponent = 0.6;
+  return formula;
+}
+
+TEST(FrictionLaw, AsksHowFastAPlaceSlidLatelyOnlyWhereFrictionFallsWithTheSpeed) {
+  EXPECT_TRUE(FrictionLaw(falling()).falls());
+  EXPECT_TRUE(FrictionLaw(curve_of({{1e-4, 0.3}, {1e-3, 0.1}, {1e-1, 1.0}})).falls());
+  EXPECT_FALSE(FrictionLaw(curve_of({{1e-3, 0.1}, {1e-2, 0.4}})).falls());
+  EXPECT_FALSE(FrictionLaw(film_of(4e-4, 0.05, 0.002)).falls());
+}
+
+TEST(FrictionLaw, IsThatOfSteadySlidingAtTheSpeedOfLateAndRisesFromThere) {
+  const FrictionLaw law(falling());
+  for (const double pressure : {0.02, 0.5})
+    for (double speed = 1e-3; speed < 1e4; speed *= 3.0) {
+      double lately = speed;
+      SlidingPlace place = place_of(1.0, 1.0, pressure), steady = place;
+      place.lately = &lately;
+      EXPECT_DOUBLE_EQ(law.traction(place, speed, 1.0).value,
+                       law.traction(steady, speed, 1.0).value);
+      double before = 0.0;
+      for (double v = 0.0; v < 1e4; v = 1.3 * v + 1e-4) {
+        const double now = law.traction(place, v, 1.0).value;
+        ASSERT_GE(now, before * (1.0 - 1e-12)) << v;
+        before = now;
+      }
+    }
+}
+
+/// A spring that is drawn at a steady speed on the falling branch: with the friction of the moment
+/// it stuck and jumped, here it slides steadily.
+TEST(FrictionLaw, ASpringIsDrawnSteadilyWhereFrictionFallsWithTheSpeed) {
+  const FrictionLaw law(falling());
+  const double pressure = 0.05, memory = 0.04; // N/mm^2, s
+  for (const double number : {0.002, 0.006, 0.05})
+    for (const double dt : {1e-5, 1e-3}) {
+      const double speed = number * pressure / 3e-4;
+      double held = 0.0, slip = 0.0, lately = 0.0;
+      const double wanted = pressure * falling().hersey(number);
+      double least = 1e9, most = 0.0;
+      const int steps = static_cast<int>(1.0 / dt);
+      for (int i = 0; i < steps; ++i) {
+        SlidingPlace place = place_of(held + speed * dt, held, pressure, slip);
+        place.lately = &lately;
+        if (i == 0) begin_sliding(place, 1.0 / dt);
+        const double left = law.stuck(place, 1.0 / dt, 1.0), y = place.stretch - left;
+        follow_sliding(place, y, 1.0 / dt, memory);
+        held = left, slip += y;
+        if (i > steps / 2) least = std::min(least, k * held), most = std::max(most, k * held);
+      }
+      EXPECT_NEAR(least, wanted, 2e-3 * wanted) << number << ' ' << dt;
+      EXPECT_NEAR(most, wanted, 2e-3 * wanted) << number << ' ' << dt;
+    }
+}
+
+/// Likewise drawn, a spring with k T below the fall of the friction with the speed cannot be
+/// steady.
+TEST(FrictionLaw, TellsWhatSlidUnsteadily) {
+  const FrictionLaw law(falling());
+  const double pressure = 0.05, memory = 0.04, dt = 1e-3, speed = 0.002 * pressure / 3e-4;
+  const auto unsteady_share = [&](double stiffness) {
+    SlidingSeen seen;
+    double held = 0.0, slip = 0.0, lately = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+      SlidingPlace place = place_of(held + speed * dt, held, pressure, slip);
+      place.lately = &lately, place.stiffness = stiffness;
+      if (i == 0) begin_sliding(place, 1.0 / dt);
+      const double left = law.stuck(place, 1.0 / dt, 1.0), y = place.stretch - left;
+      law.note(place, y, 1.0 / dt, 1.0, seen);
+      follow_sliding(place, y, 1.0 / dt, memory);
+      held = left, slip += y;
+    }
+    return seen.unsteady / seen.hersey.work;
+  };
+  EXPECT_GT(unsteady_share(0.1), 0.3);
+  EXPECT_LT(unsteady_share(k), 0.02);
+}
+
 TEST(FrictionLaw, TellsWhereInItsCurveItWas) {
   const FrictionLaw law(curve_of({{1e-3, 0.1}, {1e-2, 0.4}}));
   SlidingSeen seen;
