@@ -23,8 +23,8 @@ struct SurfaceKinematics {
   std::span<const double> thickness_ratio = {};
   /// per node, how its fibres run, of any length; for searches whose laws ask for it
   std::span<const Vec3> fibres = {};
-  /// Its edges and, per node, the distance (mm) before forming from the sheet's rim; for searches
-  /// whose laws have films
+  /// Its edges and, per node, the distance (mm) before forming from the sheet's rim; where films
+  /// slide and heat flows
   std::span<const SheetEdge> edges = {};
   std::span<const double> rim_distance = {};
   /// per node, degC; for friction that asks for it

@@ -38,6 +38,14 @@ ToRim to_rim(const PlyPlyPoint& point, const SurfaceKinematics& slave,
   return rim;
 }
 
+/// Whether the rim may be before the next node: of the others a ply covers all.
+bool is_near_rim(const PlyPlyPoint& point, const SurfaceKinematics& slave,
+                 const SurfaceKinematics& master, const Triangle& t) {
+  constexpr double cells = 4.0; // roots of a node's area, at a corner a quarter of a cell
+  const std::span<const double> rim = master.rim_distance;
+  return std::min({rim[t[0]], rim[t[1]], rim[t[2]]}) < cells * std::sqrt(slave.area[point.node]);
+}
+
 /// Finds how far the slave's mesh reaches from each point's node towards the rim. first: the number
 /// of each node's first point.
 void find_next(const SurfaceKinematics& slave, std::span<const std::size_t> first,
@@ -57,15 +65,15 @@ struct Rims {
   std::vector<ToRim> of;
   std::vector<std::size_t> first; ///< point of each node
 
+  /// outside: mm, how far from the rim a node beyond it is still covered.
   Rims(const PlyPlyContact& contact, const SurfaceKinematics& slave,
-       const SurfaceKinematics& master, std::span<const Triangle> triangles)
-      : of(contact.points.size()), first(slave.x.size() + 1, 0), furthest_(0.0) {
-    const double h = contact.distance, film = contact.law.film_gap;
-    furthest_ = -std::sqrt(film * (2.0 * h + film)); // what still touches the rim from outside
+       const SurfaceKinematics& master, std::span<const Triangle> triangles, double outside)
+      : of(contact.points.size()), first(slave.x.size() + 1, 0), furthest_(-outside) {
     if (master.rim_distance.empty()) return;
     for (std::size_t i = 0; i < of.size(); ++i) {
       const PlyPlyPoint& c = contact.points[i];
-      of[i] = to_rim(c, slave, master, triangles[c.face]);
+      if (is_near_rim(c, slave, master, triangles[c.face]))
+        of[i] = to_rim(c, slave, master, triangles[c.face]);
       ++first[c.node + 1];
     }
     std::partial_sum(first.begin(), first.end(), first.begin());
@@ -78,8 +86,28 @@ struct Rims {
     return false;
   }
 
+  /// Whether the next node of point i lies on the master, too: the rim runs along, or not there.
+  bool goes_on(std::size_t i) const {
+    const ToRim& rim = of[i];
+    if (rim.node < 0) return false;
+    for (std::size_t k = first[rim.node]; k < first[rim.node + 1]; ++k)
+      if (of[k].distance >= -ends * rim.next) return true;
+    return false;
+  }
+
+  /// Of the area `own` (mm^2) of the node of point i, what the master covers.
+  double share(std::size_t i, double own) const {
+    const ToRim& rim = of[i];
+    if (!(rim.next > ends * std::sqrt(own))) return 1.0;
+    const double left = std::clamp(rim.distance / rim.next, -0.5, 1.0);
+    const bool next_is_outside = left < 1.0 && !covers(rim.node);
+    const double beyond = next_is_outside ? std::max(left - 0.5, 0.0) : 0.0;
+    return std::min(left + 0.5, 1.0) + beyond;
+  }
+
 private:
-  double furthest_; ///< mm
+  static constexpr double ends = 0.1; // of an element, below which the slave's mesh ends there, too
+  double furthest_;                   ///< mm
 };
 
 } // namespace
@@ -95,24 +123,36 @@ double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& mas
 
 void renew_film_areas(PlyPlyContact& contact, const SurfaceKinematics& slave,
                       const SurfaceKinematics& master, std::span<const Triangle> triangles) {
-  // of an element, below which the slave's mesh ends there, too; of the master's nodal area, the
-  // most that presses on one
-  constexpr double ends = 0.1, finer = 4.0, least_share = 1e-3;
-  const Rims rims(contact, slave, master, triangles);
+  // of the master's nodal area, the most that presses on one
+  constexpr double finer = 4.0, least_share = 1e-3;
+  const double h = contact.distance, film = contact.law.film_gap;
+  const Rims rims(contact, slave, master, triangles,
+                  std::sqrt(film * (2.0 * h + film))); // what still touches the rim from outside
   for (std::size_t i = 0; i < rims.of.size(); ++i) {
     PlyPlyPoint& c = contact.points[i];
-    const ToRim& rim = rims.of[i];
-    const double own = slave.area[c.node];
-    double share = 1.0;
-    if (rim.next > ends * std::sqrt(own)) {
-      const double left = std::clamp(rim.distance / rim.next, -0.5, 1.0);
-      const double beyond = rims.covers(rim.node) ? 0.0 : std::max(left - 0.5, 0.0);
-      share = std::min(left + 0.5, 1.0) + beyond;
-    }
+    const double own = slave.area[c.node], share = rims.share(i, own);
     const double before = c.area, most = finer * contact_area(slave, master, c, triangles[c.face]);
     c.area = std::min(std::max(share, least_share) * own, most);
     s_of(c.memory) *= before / c.area;
   }
+}
+
+std::vector<Cover> covers_of(const PlyPlyContact& contact, const SurfaceKinematics& slave,
+                             const SurfaceKinematics& master, std::span<const Triangle> triangles) {
+  const Rims rims(contact, slave, master, triangles, std::numeric_limits<double>::infinity());
+  std::vector<Cover> covers;
+  covers.reserve(contact.points.size());
+  for (std::size_t i = 0; i < contact.points.size(); ++i) {
+    const PlyPlyPoint& c = contact.points[i];
+    Cover& cover = covers.emplace_back();
+    cover.share = rims.goes_on(i) ? 1.0 : rims.share(i, slave.area[c.node]);
+    if (!(rims.of[i].distance < 0.0)) continue;
+    const Triangle& t = triangles[c.face];
+    const Vec3& a = at(master.x, t[0]);
+    const Vec3 normal = (at(master.x, t[1]) - a).cross(at(master.x, t[2]) - a).normalized();
+    cover.height = std::abs(normal.dot(at(slave.x, c.node) - a));
+  }
+  return covers;
 }
 
 double by_angle(const FrictionLaw& law, const PlyPlyPoint& point, const SurfaceKinematics& slave,

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a search gives to points of contact of two plies by their law of friction: their areas, and
-// the angle between the fibres of both faces.
+// What points of contact of two plies have beside their forces: the areas that one covers of the
+// other, on which films act and through which heat goes, and the angle between the fibres of both
+// faces.
 #pragma once
 
 #include "contact/forces/ply_ply.hpp"
+
+#include <optional>
 
 namespace plyform {
 
@@ -24,6 +27,16 @@ double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& mas
 /// their forces.
 void renew_film_areas(PlyPlyContact& contact, const SurfaceKinematics& slave,
                       const SurfaceKinematics& master, std::span<const Triangle> triangles);
+
+/// How a node sees the face of another ply.
+struct Cover {
+  double share = 0.0;           ///< of its area, as above: what the master covers
+  std::optional<double> height; ///< mm, over the face's plane, of a node that is beyond the rim
+};
+
+/// Of all points of a contact, with the sheets as they lie now. Takes rim_distance of the master.
+std::vector<Cover> covers_of(const PlyPlyContact& contact, const SurfaceKinematics& slave,
+                             const SurfaceKinematics& master, std::span<const Triangle> triangles);
 
 /// f_a of contact/forces/friction_law.hpp at a point; 1 where a face has no fibres.
 double by_angle(const FrictionLaw& law, const PlyPlyPoint& point, const SurfaceKinematics& slave,

@@ -16,6 +16,11 @@
 //
 //   1/h_k = 1/h_touching + g / k_air                                                        (3)
 //
+// A face gives heat to what lies before it, and to nothing behind that: at its nodes the contact
+// search sees tools and plies behind a ply, too. A ply before it covers a share of a node's area
+// near its own rim (contact/forces/sliding_point.hpp), and what it leaves goes to what is there,
+// or to the air.
+//
 // Of two plies that touch, (1) for both has the mean T_m = (C_a T_a + C_b T_b) / (C_a + C_b),
 // which stays, and each goes to it: T_k = T_m, h_k = h (C_a + C_b) / C_b for ply a. With T_k = T_b,
 // they would exchange their temperatures in a step that is too long.
@@ -32,6 +37,9 @@ namespace plyform {
 
 /// Steps from one update of temperatures to the next, which take nothing of what cools in seconds.
 constexpr long temperatures_every = 10;
+/// h dt / C of one face, of the largest h, after which they are due sooner: T_m of (2) stays as it
+/// is meanwhile, which a ply between two others feels.
+constexpr double longest_update = 0.01;
 
 /// degC, of the nodes of each ply at the present time, which may be some steps after those of its
 /// state; empty of plies without temperatures.

@@ -51,7 +51,7 @@ struct PlyModel {
   bool self_contact = false; ///< whether it is in contact with itself, too
   ThicknessLaw thickness_law;
   bool thickness_acts = false;      ///< in contact: core/solver/follow_thickness.hpp
-  std::vector<double> rim_distance; ///< contact/search/sheet_edges.hpp; only where films slide
+  std::vector<double> rim_distance; ///< contact/search/sheet_edges.hpp; where films slide and heat flows
   bool convex = false;              ///< contact/search/unfolded.hpp; not asked without self-contact
 };
 

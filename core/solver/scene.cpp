@@ -186,8 +186,9 @@ void set_lengths(Scene& s) {
   s.bound_margin = margin_in_thicknesses * thickness;
 }
 
-/// Sets what searches of contacts with films need.
+/// Sets what contacts with films need, and heat from ply to ply.
 void set_films(Scene& s) {
+  const bool cools = s.data.process.cooling.has_value();
   for (const ToolState& tool : s.tools)
     for (const ToolPlyContact& contact : tool.contacts)
       s.film_gap = std::max(s.film_gap, contact.law.film_gap);
@@ -195,7 +196,7 @@ void set_films(Scene& s) {
     for (const PlyContact& pass : pair.passes) {
       s.film_gap = std::max(s.film_gap, pass.contact.law.film_gap);
       PlyBody& master = s.plies[at(pass.master)];
-      if (pass.contact.law.has_film() && master.rim_distance.empty())
+      if ((pass.contact.law.has_film() || cools) && master.rim_distance.empty())
         master.rim_distance = rim_distances(master.edges, master.x0);
     }
 }

@@ -3,6 +3,8 @@
 //
 //   one lump   T = T_e + (T_0 - T_e) e^(-t/tau),  tau = rho_A c / sum h                        (L)
 //   two lumps  their mean stays, their difference falls by e^(-h t (1/C_a + 1/C_b))             (D)
+//   a stack    C dT_i/dt = h_i (T_i-1 - T_i) + h_i+1 (T_i+1 - T_i), whose ends are tools or the
+//              air: by Runge and Kutta's rule in steps that take nothing                       (S)
 #include "core/run/run.hpp"
 #include "core/solver/step.hpp"
 #include "support/kill_checks.hpp"
@@ -131,6 +133,146 @@ TEST(Cooling, GoesThroughLessTheWiderAFilmOfAirIs) {
         return lump(hot, target, h, t);
       });
   fmt::print("a tenth of a millimetre above it: {:.5f}\n", error);
+  EXPECT_LT(error, 0.01);
+}
+
+/// Conductances from the bottom up, one more than plies, and temperatures (degC) at both ends.
+struct StackEnds {
+  std::vector<double> h;
+  double below, above;
+};
+
+/// (S), degC, of plies that begin so, after t (s).
+std::vector<double> stack_after(std::vector<double> celsius, const StackEnds& ends, double t) {
+  constexpr int steps = 400;
+  const auto rates = [&](const std::vector<double>& now) {
+    std::vector<double> rate(now.size());
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const double below = i > 0 ? now[i - 1] : ends.below;
+      const double above = i + 1 < now.size() ? now[i + 1] : ends.above;
+      rate[i] = (ends.h[i] * (below - now[i]) + ends.h[i + 1] * (above - now[i])) / capacity;
+    }
+    return rate;
+  };
+  const auto moved = [](std::vector<double> from, const std::vector<double>& rate, double dt) {
+    for (std::size_t i = 0; i < from.size(); ++i)
+      from[i] += dt * rate[i];
+    return from;
+  };
+  const double dt = t / steps;
+  for (int i = 0; i < steps; ++i) {
+    const auto a = rates(celsius), b = rates(moved(celsius, a, 0.5 * dt)),
+               c = rates(moved(celsius, b, 0.5 * dt)), d = rates(moved(celsius, c, dt));
+    for (std::size_t k = 0; k < celsius.size(); ++k)
+      celsius[k] += dt / 6.0 * (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]);
+  }
+  return celsius;
+}
+
+/// Plies between a cold floor and a warm plate, with these temperatures and conductances of tools
+/// and plies, against (S), on two meshes and two durations.
+void expect_stack(const std::vector<double>& from, double tools, double plies) {
+  for (const double element : {10.0, 7.5})
+    for (const double duration : {0.02, 0.01}) {
+      Case data = hot_plies(from.size(), element);
+      press_by_plate(data);
+      data.solver.duration = duration;
+      data.tools[0].temperature = {{0.0, 40.0}}, data.tools[1].temperature = {{0.0, 120.0}};
+      data.process.cooling = Cooling{tools, plies, 0.0, {{0.0, room}}};
+      for (std::size_t p = 0; p < from.size(); ++p)
+        data.plies[p].temperature = from[p];
+      StackEnds ends{std::vector<double>(from.size() + 1, plies), 40.0, 120.0};
+      ends.h.front() = ends.h.back() = tools;
+      double most = 0.0, error = 0.0;
+      RunHooks hooks;
+      hooks.frame = [&](const Frame& frame) {
+        const std::vector<double> wanted =
+            stack_after(from, ends, frame.time * data.process_time());
+        for (std::size_t p = 0; p < from.size(); ++p)
+          for (const double celsius : frame.plies[p].temperature) {
+            most = std::max(most, std::abs(wanted[p] - from[p]));
+            error = std::max(error, std::abs(celsius - wanted[p]));
+          }
+      };
+      const RunResult run = run_case(data, 1, hooks);
+      EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+      fmt::print("{} plies, tools {:g}, plies {:g}, elements of {:g} mm, {:g} s: {:.3f} of {:.1f} "
+                 "K off\n",
+                 from.size(), tools, plies, element, duration, error, most);
+      EXPECT_LT(error, 0.01 * most);
+    }
+}
+
+TEST(Cooling, OfTwoPliesBetweenPlatesIsTheirsAloneIfPlatesTakeNothing) {
+  expect_stack({200.0, 100.0}, 0.0, 0.45);
+}
+
+TEST(Cooling, OfPliesThatGiveNothingToEachOtherIsToTheNextPlateAlone) {
+  expect_stack({200.0, 100.0}, 0.3, 0.0);
+}
+
+TEST(Cooling, OfThreePliesGoesThroughTheMiddleOne) {
+  expect_stack({200.0, 150.0, 100.0}, 0.3, 0.45);
+  expect_stack({200.0, 150.0, 100.0}, 0.3, 0.0);
+}
+
+/// Heat (N mm) of a ply in a frame.
+double heat_of(const PlyFrame& ply) {
+  const std::vector<double> areas = areas_before(ply);
+  double heat = 0.0;
+  for (std::size_t e = 0; e < areas.size(); ++e)
+    for (const std::int32_t n : ply.triangles[e])
+      heat += areas[e] / 3.0 * capacity * ply.temperature[at(n)];
+  return heat;
+}
+
+TEST(Cooling, OfASmallPlyOnALargeOneGoesThroughWhatItCovers) {
+  constexpr double small = 36.0, cold = 90.0, share = 0.02; // mm, degC, of h t / C
+  for (const double element : {10.0, 6.0})
+    for (const double duration : {0.02, 0.01}) {
+      Case data = hot_plies(2, element);
+      data.blanks.push_back(rectangle(small, small, 6.0));
+      data.plies[1].blank = 1;
+      data.plies[1].temperature = cold;
+      data.process.cooling->to_air = 0.0;
+      data.process.duration = share * capacity / to_plies;
+      data.solver.duration = duration;
+      std::array<double, 2> before{}, after{};
+      RunHooks hooks;
+      hooks.frame = [&](const Frame& frame) {
+        for (std::size_t p = 0; p < 2; ++p)
+          (frame.step == 0 ? before : after)[p] = heat_of(frame.plies[p]);
+      };
+      const RunResult run = run_case(data, 1, hooks);
+      EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+      const double wanted =
+          small * small * capacity * 0.5 * (hot - cold) * (1.0 - std::exp(-2.0 * share));
+      fmt::print("elements of {:g} mm, {:g} s: {:+.4f} from the large, {:+.4f} to the small one\n",
+                 element, duration, (before[0] - after[0]) / wanted - 1.0,
+                 (after[1] - before[1]) / wanted - 1.0);
+      EXPECT_NEAR((before[0] - after[0]) / wanted, 1.0, 0.01);
+      EXPECT_NEAR((after[1] - before[1]) / wanted, 1.0, 0.01);
+    }
+}
+
+TEST(Cooling, UnderTheRimOfAPlyGoesToWhatLiesThere) {
+  // a small ply on a large one, both in the air: what is covered gives to the ply, what is not to
+  // the air
+  Case data = hot_plies(2);
+  data.blanks.push_back(rectangle(40.0, 40.0, 10.0));
+  data.plies[1].blank = 1;
+  data.plies[1].temperature = 90.0;
+  data.process.duration = 2.0;
+  const double far = 25.0, near = 15.0; // mm
+  const StackEnds covered{{to_air, to_plies, to_air}, room, room};
+  const double error =
+      worst(data, [&](std::size_t p, const Vec3& x, double t) -> std::optional<double> {
+        const double out = std::max(std::abs(x.x()), std::abs(x.y()));
+        if (out < near) return stack_after({hot, 90.0}, covered, t)[p];
+        if (p == 0 && out > far) return lump(hot, room, 2.0 * to_air, t);
+        return std::nullopt; // under the rim
+      });
+  fmt::print("covered and not: {:.5f}\n", error);
   EXPECT_LT(error, 0.01);
 }
 
