@@ -2,9 +2,11 @@
 #include "core/run/present_thickness.hpp"
 
 #include "base/node_normals.hpp"
+#include "core/solver/make_contacts.hpp"
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace plyform {
 namespace {
@@ -40,6 +42,69 @@ private:
   std::array<std::vector<double>, 2> sum_, weight_;
 };
 
+/// How half a ply gives way, over its thickness before forming; not at all without a curve.
+class GivingHalf {
+public:
+  explicit GivingHalf(const PlyBody& ply) : half_(0.5 * ply.thickness) {
+    const std::optional<Compaction>& c = ply.membrane.fabric.compaction;
+    if (!c) return;
+    loading_ = curve_of(c->loading);
+    if (!c->unloading.thickness.empty()) unloading_ = curve_of(c->unloading);
+  }
+  /// mm it has lost under a pressure (N/mm^2) after the greatest so far.
+  double lost(double pressure, double greatest) const {
+    if (!loading_) return 0.0;
+    if (!unloading_) return loading_->depth_at(pressure);
+    return loading_->depth_at(greatest) -
+           (unloading_->depth_at(greatest) - unloading_->depth_at(pressure));
+  }
+  /// mm that it can lose up to its densest packing.
+  double most() const { return loading_ ? loading_->packed() : 0.0; }
+  double half() const { return half_; } ///< mm, with nothing on it
+
+private:
+  static CompactionCurve curve_of(const ThicknessCurve& curve) {
+    const HalfCompaction half = half_of(curve);
+    return {&half, nullptr};
+  }
+
+  double half_;
+  std::optional<CompactionCurve> loading_, unloading_;
+};
+
+/// Splits what two plies on each other lose together by (3).
+class EqualPressure {
+public:
+  EqualPressure(const Scene& s, const PlyContact& pass)
+      : law_(pass.contact.law), slave_(s.plies[at(pass.slave)]), master_(s.plies[at(pass.master)]),
+        slave_share_(pass.contact.slave_share) {}
+
+  /// mm, the slave's part of a depth (mm) of the contact, of one that was `compacted` (mm) deep.
+  double of_slave(double depth, double compacted) const {
+    if (!(depth > 0.0) || !law_.loading) return slave_share_ * depth;
+    const double inside = std::min(depth, law_.packed()), beyond = depth - inside;
+    const double pressure = law_.pressure(inside, compacted) / law_.share;
+    const double greatest = law_.pressure(std::max(inside, compacted)) / law_.share;
+    const double a = slave_.lost(pressure, greatest), b = master_.lost(pressure, greatest);
+    const double within = a + b > 0.0 ? inside * a / (a + b) : slave_share_ * inside;
+    return within +
+           beyond_of_slave(beyond, slave_.most() - within, master_.most() - (inside - within));
+  }
+
+private:
+  /// What is lost beyond the densest packing of one comes from the other up to its own. room_a,
+  /// room_b: mm, of slave and master.
+  double beyond_of_slave(double beyond, double room_a, double room_b) const {
+    const double a = std::max(room_a, 0.0), b = std::max(room_b, 0.0), room = a + b;
+    if (beyond <= room) return room > 0.0 ? beyond * a / room : 0.0;
+    return a + (beyond - room) * slave_.half() / (slave_.half() + master_.half());
+  }
+
+  const ContactLaw& law_;
+  GivingHalf slave_, master_;
+  double slave_share_;
+};
+
 /// Adds what a contact of two plies says of `ply`, as slave, master or both. Nodes of both ways are
 /// counted: flat triangles bring those of one sheet nearer to the other where those of the other
 /// are further away.
@@ -47,18 +112,21 @@ void add(const Scene& s, const PlyContact& pass, const PlyBody& ply, Halves& hal
   const PlyBody &slave = s.plies[at(pass.slave)], &master = s.plies[at(pass.master)];
   if (&slave != &ply && &master != &ply) return;
   const PlyPlyContact& contact = pass.contact;
+  const EqualPressure split(s, pass);
   for (const PlyPlyPoint& c : contact.points) {
     const double ratio =
         thickness_ratio_at(contact, c, slave.state(), master.state(), master.membrane.triangles);
     const double h = contact.distance * ratio, distance = latest_gap(c) + h;
     if (distance > 1.5 * h) continue; // of a fold, or nearly apart
     const Vec3 n = contact_normal(c, slave.x, master.x, master.membrane.triangles);
-    if (&slave == &ply) halves.add(c.node, n, 1.0, contact.slave_share * distance);
+    const double most = contact.compacted.empty() ? 0.0 : contact.compacted[at(c.node)];
+    const double lost = split.of_slave(contact.distance - distance / ratio, most);
+    const double half = ratio * (contact.slave_share * contact.distance - lost);
+    if (&slave == &ply) halves.add(c.node, n, 1.0, half);
     if (&master != &ply) continue;
     const std::array<double, 3> w = weights_of(c);
     for (std::size_t j = 0; j < 3; ++j)
-      halves.add(master.membrane.triangles[at(c.face)][j], -n, w[j],
-                 (1.0 - contact.slave_share) * distance);
+      halves.add(master.membrane.triangles[at(c.face)][j], -n, w[j], distance - half);
   }
 }
 

@@ -2,10 +2,13 @@
 // Thickness of plies that give way through it, as their contacts leave it.
 //
 //   (1) each half of a ply reaches from its mid-surface to what it touches: the tool; of two plies,
-//       each has its share of the distance of both mid-surfaces, as of h
-//       (contact/forces/ply_ply.hpp), in the mean over the nodes of either that are near; where it
-//       touches nothing, half its thickness before forming times r (core/ply/thickness.hpp)
+//       each has its share of h (contact/forces/ply_ply.hpp) less (3), in the mean over the nodes
+//       of either that are near; where it touches nothing, half its thickness before forming times
+//       r (core/ply/thickness.hpp)
 //   (2) V = rho_A A0 / (rho_f A t), fibre volume fraction of a triangle
+//   (3) what two plies lose together, h - d / r, is split so that both halves bear one pressure, by
+//       the curve of each, loading or unloading; beyond the densest packing of one the other gives
+//       way up to its own, and beyond both they share the rest by their thickness
 #pragma once
 
 #include "core/solver/scene.hpp"

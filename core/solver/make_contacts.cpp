@@ -79,16 +79,6 @@ double spread_of(const PlyBody& ply) {
   return ply.thickness * ply.thickness / cell_area(ply);
 }
 
-/// Half a ply's loss of thickness over pressure.
-HalfCompaction half_of(const ThicknessCurve& curve, double thickness) {
-  HalfCompaction half;
-  for (std::size_t i = 0; i < curve.thickness.size(); ++i) {
-    half.depth.push_back(0.5 * (thickness - curve.thickness[i]));
-    half.pressure.push_back(curve.pressure[i]);
-  }
-  return half;
-}
-
 /// Gives a contact the curves of the plies in it, one on a tool or two in series; that beyond which
 /// nothing gives way has its depth limit scaled to what is left of the distance then. share: of the
 /// law's stiffness, in which it also bears the curve (two passes share a contact).
@@ -100,11 +90,10 @@ void give_way(ContactLaw& law, double share, std::initializer_list<const PlyBody
     distance += 0.5 * ply->thickness;
     const auto& c = ply->membrane.fabric.compaction;
     if (!c) continue;
-    loading.push_back(half_of(c->loading, ply->thickness));
+    loading.push_back(half_of(c->loading));
     const bool set = !c->unloading.thickness.empty();
     any_unloading = any_unloading || set;
-    unloading.push_back(set ? half_of(c->unloading, c->unloading.thickness.front())
-                            : loading.back());
+    unloading.push_back(set ? half_of(c->unloading) : loading.back());
   }
   if (loading.empty()) return;
   for (std::vector<HalfCompaction>* halves : {&loading, &unloading})
@@ -165,6 +154,15 @@ double edge_distance(const PlyPlyContact& contact) {
 }
 
 } // namespace
+
+HalfCompaction half_of(const ThicknessCurve& curve) {
+  HalfCompaction half;
+  for (std::size_t i = 0; i < curve.thickness.size(); ++i) {
+    half.depth.push_back(0.5 * (curve.thickness.front() - curve.thickness[i]));
+    half.pressure.push_back(curve.pressure[i]);
+  }
+  return half;
+}
 
 ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBody>& plies) {
   const Tool& tool = data.tools[index];

@@ -9,6 +9,9 @@
 
 namespace plyform {
 
+/// Half a ply's loss of thickness over pressure, from the curve's first thickness on.
+HalfCompaction half_of(const ThicknessCurve& curve);
+
 /// The tool of that index in the case, with its contacts with all plies.
 ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBody>& plies);
 

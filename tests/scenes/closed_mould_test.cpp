@@ -114,6 +114,75 @@ TEST(ClosedMould, TwoFabricsInSeriesShareTheGap) {
     EXPECT_TRUE(known.to_end());
 }
 
+/// A weave that loses its thickness (mm) in proportion to the pressure, down to `packed` under
+/// `most` (N/mm^2); none if that is 0.
+Fabric spring_weave(double thickness, double packed, double most) {
+  Fabric fabric = packing_weave();
+  fabric.thickness = thickness;
+  fabric.compaction.reset();
+  if (most > 0.0) fabric.compaction = Compaction{{{thickness, packed}, {0.0, most}}, {}, 0.0};
+  return fabric;
+}
+
+/// Largest error of the thickness of plies, and of their fibre volume, from those wanted, over
+/// these.
+double worst_thickness(const RunResult& run, const std::vector<double>& wanted) {
+  double error = 0.0;
+  for (std::size_t p = 0; p < wanted.size(); ++p) {
+    const PlyFrame& ply = run.last.plies[p];
+    for (const double t : ply.thickness)
+      error = std::max(error, std::abs(t / wanted[p] - 1.0));
+    for (const double v : ply.fibre_volume)
+      error = std::max(error, std::abs(v * wanted[p] / weight - 1.0));
+  }
+  return error;
+}
+
+TEST(ClosedMould, PliesOfSeveralFabricsShareTheGapAtEqualPressure) {
+  const Fabric soft = spring_weave(0.6, 0.3, 0.1), hard = spring_weave(0.4, 0.35, 0.1),
+               stiff = spring_weave(0.5, 0.5, 0.0);
+  const double p = 0.0714, s = 0.6 - 3.0 * p, h = 0.4 - 0.5 * p; // N/mm^2, mm
+  struct Stack {
+    std::vector<Fabric> fabrics;
+    std::vector<double> wanted;
+  };
+  for (const Stack& stack :
+       {Stack{{soft, hard}, {s, h}}, Stack{{hard, soft, hard}, {h, s, h}},
+        Stack{{soft, stiff, soft}, {s, 0.5, s}}, Stack{{soft, stiff, hard}, {s, 0.5, h}}})
+    for (const double element : {6.0, 10.0})
+      for (const double duration : {0.02, 0.01}) {
+        double gap = 0.0;
+        for (const double t : stack.wanted)
+          gap += t;
+        Case data = between_plates(stack.fabrics, gap, element);
+        data.solver.duration = duration, data.solver.fibre_softening = 100.0;
+        const RunResult run = run_case(data, 1, {});
+        EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+        const double error = worst_thickness(run, stack.wanted);
+        fmt::print("{} plies, elements of {} mm, {} s: {:.4f} off\n", stack.wanted.size(), element,
+                   duration, error);
+        EXPECT_LT(error, 0.01);
+      }
+}
+
+/// Pressed to p_1 and let go to p_2: the one that keeps a set has kept it, and pressures are equal.
+TEST(ClosedMould, PliesOfTwoFabricsPartTheWayBackToo) {
+  Fabric soft = spring_weave(0.6, 0.3, 0.1), hard = spring_weave(0.4, 0.35, 0.1);
+  soft.compaction->unloading = {{0.4, 0.3}, {0.0, 0.1}}; // back along 1 mm per N/mm^2
+  const double most = 0.08, now = 0.03;                  // N/mm^2
+  const double least_s = 0.6 - 3.0 * most, least_h = 0.4 - 0.5 * most;
+  const double s = least_s + 1.0 * (most - now), h = 0.4 - 0.5 * now;
+  Case data = between_plates({soft, hard}, least_s + least_h);
+  data.tools[1].programme = {{0.5, 1.0 - least_s - least_h}, {1.0, 1.0 - s - h}};
+  data.tools[1].stroke = 0.0;
+  data.solver.fibre_softening = 100.0;
+  const RunResult run = run_case(data, 1, {});
+  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+  const double error = worst_thickness(run, {s, h});
+  fmt::print("{:.3f} and {:.3f} mm: {:.4f} off\n", s, h, error);
+  EXPECT_LT(error, 0.01);
+}
+
 /// Loaded to 0.48 mm a ply and let go to 0.52, by a curve that keeps a set.
 TEST(ClosedMould, UnloadingGoesItsOwnWayAndWhatIsLostIsCounted) {
   Fabric fabric = packing_weave();

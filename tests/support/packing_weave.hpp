@@ -37,14 +37,16 @@ inline double thickness_at(double pressure, double scale = 20.0, double exponent
 }
 
 /// Plies of these fabrics on a floor, under a box that comes down to leave `gap` (mm).
-inline Case between_plates(const std::vector<Fabric>& fabrics, double gap) {
+inline Case between_plates(const std::vector<Fabric>& fabrics, double gap, double element = 6.0) {
   Case data = stack_of(std::vector<double>(fabrics.size(), 0.0),
-                       rectangle(packing_side, packing_side, 6.0));
+                       rectangle(packing_side, packing_side, element));
   data.fabrics = fabrics;
-  const double top = packing_free * static_cast<double>(fabrics.size());
-  for (std::size_t p = 0; p < fabrics.size(); ++p)
-    data.plies[p].fabric = static_cast<int>(p),
-    data.plies[p].z = packing_free * (static_cast<double>(p) + 0.5);
+  double top = 0.0;
+  for (std::size_t p = 0; p < fabrics.size(); ++p) {
+    data.plies[p].fabric = static_cast<int>(p);
+    data.plies[p].z = top + 0.5 * fabrics[p].thickness;
+    top += fabrics[p].thickness;
+  }
   Tool floor;
   floor.name = "floor";
   floor.shape = Box{{200.0, 200.0, 10.0}};
