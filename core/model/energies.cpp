@@ -27,9 +27,21 @@ double Energies::balance_error() const {
   return most == 0.0 ? 0.0 : residual() / most;
 }
 
-double Energies::kinetic_over_shear() const {
-  const double most = std::max(shear, floor);
+double Energies::deformation() const {
+  return fibre + shear + stitch + bending + contact + compaction + viscous + stitch_breaking;
+}
+
+double Energies::kinetic_over(double work) const {
+  const double most = std::max(work, floor);
   return most == 0.0 ? 0.0 : kinetic / most;
+}
+
+double Energies::kinetic_over_deformation() const {
+  return kinetic_over(deformation());
+}
+
+double Energies::kinetic_over_shear() const {
+  return kinetic_over(shear);
 }
 
 Energies& Energies::operator+=(const Energies& more) {

@@ -23,8 +23,13 @@ struct Energies {
   double largest() const;  ///< magnitude of the largest term; NaN if any is
   /// residual() over largest(), or over the floor if that is more; 0 when all are 0.
   double balance_error() const;
-  double kinetic_over_shear() const; ///< likewise; 0 when both are 0
+  /// Work of all deformation, stored and lost: of yarns, shear, stitches and bending, and through
+  /// the thickness; without friction and damping, N mm.
+  double deformation() const;
+  double kinetic_over_deformation() const; ///< as balance_error, of the kinetic energy
+  double kinetic_over_shear() const;       ///< likewise
   Energies& operator+=(const Energies& more);
+  double kinetic_over(double work) const; ///< of a work in N mm, likewise; 0 when both are 0
 };
 
 /// A term: its name in files and in words, and its sign in the balance: stored or dissipated +1,

@@ -41,7 +41,7 @@ bool is_steady(const Dwell& dwell, double floor) {
 }
 
 bool is_at_rest(const Energies& e) {
-  return e.kinetic <= std::max(at_rest * (e.fibre + e.shear + e.stitch + e.bending), e.floor);
+  return e.kinetic <= std::max(at_rest * e.deformation(), e.floor);
 }
 
 /// Now and then, where pressures act: whether plies rest, and what is done on them.

@@ -19,7 +19,7 @@ namespace {
 constexpr double small_bending = 0.01, small_friction = 1e-3;
 
 constexpr double deep = 0.9;          // of the depth limit of a contact (core/solver/scene.cpp)
-constexpr double high_inertia = 0.05; // kinetic over shear energy at the end
+constexpr double high_inertia = 0.05; // kinetic energy over the work of deformation at the end
 constexpr double long_strain = 0.005; // softened yarns; woven ones break at 0.02 to 0.04
 
 std::vector<PairSeen> all_seen(const Scene& s) {
@@ -160,9 +160,9 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
       found.push_back(fmt::format("{} with {}: {:.3f} mm deep at some time, of {:.3g} mm that "
                                   "contact has; a finer mesh spreads the pressure over more nodes",
                                   names.first, names.second, depth.first, depth.second));
-  if (const double share = e.kinetic_over_shear(); share > high_inertia)
-    found.push_back(fmt::format("inertia: kinetic energy is {:.2g} of the shear energy at the end; "
-                                "a longer solver.duration makes it less",
+  if (const double share = e.kinetic_over_deformation(); share > high_inertia)
+    found.push_back(fmt::format("inertia: kinetic energy is {:.2g} of the work of deformation at "
+                                "the end; a longer solver.duration makes it less",
                                 share));
   const auto [strain, ply] = longest_yarn(s, last);
   if (const double by = largest_softening(s, ply); by > 1.0 && strain > long_strain)

@@ -183,6 +183,32 @@ TEST(ClosedMould, PliesOfTwoFabricsPartTheWayBackToo) {
   EXPECT_LT(error, 0.01);
 }
 
+/// All work goes through the thickness, none into shear: inertia is judged by that.
+TEST(ClosedMould, InertiaIsJudgedByTheWorkOfCompaction) {
+  for (const double element : {6.0, 10.0})
+    for (const double duration : {0.02, 0.01}) {
+      Case data = between_plates({packing_weave(), packing_weave()}, 0.9, element);
+      data.solver.duration = duration, data.solver.fibre_softening = 100.0;
+      const RunResult run = run_case(data, 1, {});
+      const double free = std::pow(weight / packing_free, 8.0);
+      double theory = 0.0; // N/mm, of p over the way of one ply
+      constexpr int parts = 1000;
+      for (int i = 0; i < parts; ++i)
+        theory +=
+            (packing_free - 0.45) / parts * 20.0 *
+            (std::pow(weight / (0.45 + (packing_free - 0.45) * (i + 0.5) / parts), 8.0) - free);
+      theory *= 2.0 * side * side;
+      const Energies& e = run.last.energy;
+      fmt::print("{} mm, {} s: work {:.3f} of {:.3f} mJ, kinetic {:.2g}, shear {:.2g}\n", element,
+                 duration, e.deformation(), theory, e.kinetic, e.shear);
+      EXPECT_NEAR(e.deformation() / theory, 1.0, 0.01);
+      EXPECT_NEAR(e.kinetic_over_deformation(), e.kinetic / std::max(theory, e.floor),
+                  0.01 * e.kinetic_over_deformation());
+      for (const std::string& told : run.summary.work.missing)
+        EXPECT_EQ(told.find("inertia"), std::string::npos) << told;
+    }
+}
+
 /// Loaded to 0.48 mm a ply and let go to 0.52, by a curve that keeps a set.
 TEST(ClosedMould, UnloadingGoesItsOwnWayAndWhatIsLostIsCounted) {
   Fabric fabric = packing_weave();
