@@ -42,11 +42,12 @@ std::string known_names(const Numbers& names) {
 }
 
 /// The number of the part that a key names; reports an error and returns 0 if there is none.
+/// all_known: whether all names are.
 int named_part(const TableView& section, const std::string& key, const Numbers& names,
-               Diagnostics& diagnostics) {
+               bool all_known, Diagnostics& diagnostics) {
   const auto it = names.find(text(section, key));
   if (it != names.end()) return it->second;
-  if (given(section, key))
+  if (all_known && given(section, key))
     value_error(section, key, "names no " + key + " of this case", known_names(names), diagnostics);
   return 0;
 }
@@ -54,14 +55,15 @@ int named_part(const TableView& section, const std::string& key, const Numbers& 
 std::vector<Ply> read_plies(const TableView& root, const std::vector<Fabric>& fabrics,
                             Diagnostics& diagnostics) {
   const Numbers fabric_names = names_of(root, "fabrics"), blank_names = names_of(root, "blanks");
+  const bool know_fabrics = knows_names(root, "fabrics"), know_blanks = knows_names(root, "blanks");
   double top = number(subsection(root, "stack"), "bottom");
   std::vector<Ply> plies;
   for (const TableView& section : subsections(root, "ply")) {
     Ply ply;
     read_members(section, ply);
     if (given(section, "seed")) ply.seed = vector2(section, "seed");
-    ply.fabric = named_part(section, "fabric", fabric_names, diagnostics);
-    ply.blank = named_part(section, "blank", blank_names, diagnostics);
+    ply.fabric = named_part(section, "fabric", fabric_names, know_fabrics, diagnostics);
+    ply.blank = named_part(section, "blank", blank_names, know_blanks, diagnostics);
     const std::size_t fabric = static_cast<std::size_t>(ply.fabric);
     const double thickness = fabric < fabrics.size() ? fabrics[fabric].thickness : 0.0;
     ply.z = given(section, "z") ? number(section, "z") : top + 0.5 * thickness;
@@ -92,9 +94,17 @@ Numbers number_bodies(const TableView& root, Diagnostics& diagnostics) {
   return bodies;
 }
 
+/// What the names of a case's bodies stand for.
+struct NamedBodies {
+  Numbers bodies; ///< plies, then tools
+  int plies, count;
+  bool all_known; ///< the names
+};
+
 /// The bodies that one name of a contact pair denotes.
-std::vector<int> bodies_named(const TomlNode& name, const std::string& item, const Numbers& bodies,
-                              int plies, int count, Diagnostics& diagnostics) {
+std::vector<int> bodies_named(const TomlNode& name, const std::string& item,
+                              const NamedBodies& named, Diagnostics& diagnostics) {
+  const auto& [bodies, plies, count, all_known] = named;
   std::vector<int> found;
   const bool all_plies = name.text == "plies", all_tools = name.text == "tools";
   if (all_plies || all_tools) {
@@ -102,7 +112,7 @@ std::vector<int> bodies_named(const TomlNode& name, const std::string& item, con
       found.push_back(body);
   } else if (const auto it = bodies.find(name.text); it != bodies.end()) {
     found.push_back(it->second);
-  } else {
+  } else if (all_known) {
     diagnostics.error(name.at, item, name.source_text, "names no ply or tool of this case",
                       known_names(bodies) + "; and plies and tools for all of them");
   }
@@ -110,11 +120,13 @@ std::vector<int> bodies_named(const TomlNode& name, const std::string& item, con
 }
 
 /// Number of the law that a table names, or -1 if it names none.
-int friction_law_of(const TableView& section, const Numbers& laws, Diagnostics& diagnostics) {
+int friction_law_of(const TableView& section, const Numbers& laws, bool all_known,
+                    Diagnostics& diagnostics) {
   if (!given(section, "friction_law")) return -1;
   if (const auto it = laws.find(text(section, "friction_law")); it != laws.end()) return it->second;
-  value_error(section, "friction_law", "names no law in [friction]", known_names(laws),
-              diagnostics);
+  if (all_known)
+    value_error(section, "friction_law", "names no law in [friction]", known_names(laws),
+                diagnostics);
   return -1;
 }
 
@@ -130,23 +142,25 @@ void warn_of_unused(const TableView& root, const FrictionTable& table, Diagnosti
   }
 }
 
-FrictionTable read_friction(const TableView& root, const Numbers& bodies, int plies, int count,
+FrictionTable read_friction(const TableView& root, const NamedBodies& named,
                             Diagnostics& diagnostics) {
   const TableView contact = subsection(root, "contact");
   const Numbers laws = names_of(root, "friction");
+  const bool know_laws = knows_names(root, "friction");
+  const int plies = named.plies, count = named.count;
   FrictionTable table;
   table.bodies = count;
   table.mu.assign(static_cast<std::size_t>(count * count), number(contact, "friction"));
-  table.law.assign(table.mu.size(), friction_law_of(contact, laws, diagnostics));
+  table.law.assign(table.mu.size(), friction_law_of(contact, laws, know_laws, diagnostics));
   for (const TableView& pair : subsections(contact, "pair")) {
     const TomlNode* between = given(pair, "between");
     const double mu = number(pair, "friction");
-    const int law = friction_law_of(pair, laws, diagnostics);
+    const int law = friction_law_of(pair, laws, know_laws, diagnostics);
     if (!between) continue;
     std::vector<int> sides[2];
     for (std::size_t i = 0; i < 2; ++i)
       sides[i] = bodies_named(between->children[i], fmt::format("{}.between.{}", pair.item, i),
-                              bodies, plies, count, diagnostics);
+                              named, diagnostics);
     const auto tool = [&](int body) { return body >= plies; };
     if (!sides[0].empty() && !sides[1].empty() && tool(sides[0][0]) && tool(sides[1][0]))
       value_error(pair, "between", "names two tools, which never touch each other here",
@@ -156,7 +170,7 @@ FrictionTable read_friction(const TableView& root, const Numbers& bodies, int pl
         for (const int place : {a * count + b, b * count + a})
           table.mu[place] = mu, table.law[place] = law;
   }
-  warn_of_unused(root, table, diagnostics);
+  if (is_sound(contact) && named.all_known) warn_of_unused(root, table, diagnostics);
   return table;
 }
 
@@ -178,11 +192,13 @@ Case build_case(const TableView& root, const std::filesystem::path& folder,
   // boundaries have no contact
   std::erase_if(bodies, [&](const auto& body) { return body.second >= count; });
   built.friction_laws = read_friction_laws(root, diagnostics);
-  built.friction = read_friction(root, bodies, plies, count, diagnostics);
+  const bool all_known = knows_names(root, "ply") && knows_names(root, "tool");
+  built.friction = read_friction(root, {std::move(bodies), plies, count, all_known}, diagnostics);
   read_members(contact, built.contact);
   read_members(subsection(root, "solver"), built.solver);
   read_members(subsection(root, "accuracy"), built.accuracy);
   read_further_parts(root, built, diagnostics);
+  check_further_parts(root, built, diagnostics);
   return built;
 }
 

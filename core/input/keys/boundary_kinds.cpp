@@ -16,7 +16,7 @@ namespace {
 /// Arguments of the readers of kinds.
 struct BoundarySection {
   const TableView& section;
-  const std::vector<Tool>& tools;
+  const NamedTools& named;
   Diagnostics& diagnostics;
 
   void error(const char* key, const std::string& rule, const std::string& remedy) const {
@@ -123,13 +123,16 @@ BoundaryKind read_spring(const BoundarySection& s) {
     s.error("preload", fmt::format("is more than max_force, {:g} N", spring.max_force),
             "preload it less, or raise max_force");
   if (!given(s.section, "carried_by")) return spring;
-  const auto it = std::find_if(s.tools.begin(), s.tools.end(), [&](const Tool& tool) {
+  const std::vector<Tool>& tools = s.named.tools;
+  const auto it = std::find_if(tools.begin(), tools.end(), [&](const Tool& tool) {
     return tool.name == text(s.section, "carried_by");
   });
-  spring.carrier = static_cast<int>(it - s.tools.begin());
-  if (it == s.tools.end())
+  spring.carrier = static_cast<int>(it - tools.begin());
+  if (it == tools.end() && s.named.all_known)
     s.error("carried_by", "names no tool of this case",
             "leave it out to keep the anchor where it is");
+  else if (it == tools.end())
+    return spring;
   else if (it->motion == Motion::force)
     s.error("carried_by",
             "names a tool under a force, which does not feel what the spring pulls it with",
@@ -176,7 +179,7 @@ std::vector<std::string> boundary_words() {
   return words;
 }
 
-BoundaryKind read_boundary_kind(const TableView& section, const std::vector<Tool>& tools,
+BoundaryKind read_boundary_kind(const TableView& section, const NamedTools& tools,
                                 Diagnostics& diagnostics) {
   for (const BoundaryInput& kind : boundary_kinds)
     if (text(section, "kind") == kind.word) return kind.read({section, tools, diagnostics});

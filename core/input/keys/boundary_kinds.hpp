@@ -11,8 +11,14 @@ namespace plyform {
 /// Words of boundary[].kind.
 std::vector<std::string> boundary_words();
 
-/// Reads the kind of one [[boundary]], which gives one. tools: those of the case.
-BoundaryKind read_boundary_kind(const TableView& section, const std::vector<Tool>& tools,
+/// The tools of the case, and whether the names of all are known.
+struct NamedTools {
+  const std::vector<Tool>& tools;
+  bool all_known;
+};
+
+/// Reads the kind of one [[boundary]], which gives one.
+BoundaryKind read_boundary_kind(const TableView& section, const NamedTools& tools,
                                 Diagnostics& diagnostics);
 
 } // namespace plyform

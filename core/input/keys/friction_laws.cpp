@@ -264,8 +264,7 @@ std::vector<FrictionLawPtr> read_friction_laws(const TableView& root, Diagnostic
   for (const TableView& section : subsections(root, "friction")) {
     const std::size_t before = diagnostics.errors.size();
     FrictionLawSpec spec = LawReader{section, diagnostics}.read();
-    if (diagnostics.errors.size() > before || !section.entry || !section.entry->valid)
-      spec = {}; // the case is not used
+    if (diagnostics.errors.size() > before || !is_sound(section)) spec = {}; // the case is not used
     spec.name = section.item.substr(section.item.find('.') + 1);
     laws.push_back(std::make_shared<FrictionLaw>(std::move(spec)));
   }

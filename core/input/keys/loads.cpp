@@ -75,7 +75,8 @@ struct LoadSection {
   const TableView& section;
   const std::vector<Ply>& plies;
   PressureLoad load;
-  bool vacuum; ///< draws at what it acts on
+  bool vacuum;    ///< draws at what it acts on
+  bool all_known; ///< the names of plies
   Diagnostics& diagnostics;
 
   PressureLoad on(int ply, PlyFace side) const {
@@ -88,7 +89,7 @@ struct LoadSection {
 
 void read_on_face(const LoadSection& s, std::vector<PressureLoad>& loads) {
   const std::optional<int> ply = ply_named(text(s.section, "ply"), s.plies);
-  if (given(s.section, "ply") && !ply)
+  if (given(s.section, "ply") && !ply && s.all_known)
     value_error(s.section, "ply", "names no ply of this case", names_of(s.plies), s.diagnostics);
   loads.push_back(s.on(ply.value_or(0), s.load.side));
 }
@@ -99,6 +100,7 @@ void read_between(const LoadSection& s, const TomlNode& between, std::vector<Pre
   for (std::size_t i = 0; i < 2; ++i) {
     const TomlNode& name = between.children[i];
     const std::optional<int> ply = ply_named(name.text, s.plies);
+    if (!ply && !s.all_known) return;
     if (!ply)
       return s.diagnostics.error(name.at, fmt::format("{}.between.{}", s.section.item, i),
                                  name.source_text, "names no ply of this case", names_of(s.plies));
@@ -177,7 +179,8 @@ void read_loads(const TableView& root, Case& built, Diagnostics& diagnostics) {
             fmt::format("give it a {}, or take the load out", vacuum ? "vacuum" : "pressure"),
             diagnostics);
     }
-    const LoadSection read{section, built.plies, load, vacuum, diagnostics};
+    const LoadSection read{section,    built.plies, load, vacuum, knows_names(root, "ply"),
+                           diagnostics};
     if (const TomlNode* between = given(section, "between"))
       read_between(read, *between, built.loads);
     else

@@ -65,6 +65,10 @@ void check_clock(const TableView& root, const Case& built, bool (*rated)(const F
 void read_process(const TableView& root, Case& built, Diagnostics& diagnostics) {
   read_members(subsection(root, "process"), built.process);
   read_temperatures(root, built, diagnostics);
+}
+
+void check_process(const TableView& root, const Case& built, Diagnostics& diagnostics) {
+  check_temperatures(root, built, diagnostics);
   check_clock(root, built, has_rates, diagnostics);
 }
 

@@ -227,7 +227,8 @@ Rows accuracy_rows() {
            .members = {to(&AccuracyOptions::verify)}}};
 }
 
-constexpr FurtherPart further_parts[] = {{load_rows, read_loads}, {process_rows, read_process}};
+constexpr FurtherPart further_parts[] = {{load_rows, read_loads},
+                                         {process_rows, read_process, check_process}};
 
 Rows all_rows() {
   Rows rows{{.key = "title",
@@ -268,6 +269,12 @@ Rows all_rows() {
 void read_further_parts(const TableView& root, Case& built, Diagnostics& diagnostics) {
   for (const FurtherPart& part : further_parts)
     part.read(root, built, diagnostics);
+}
+
+void check_further_parts(const TableView& root, const Case& built, Diagnostics& diagnostics) {
+  if (!diagnostics.errors.empty()) return;
+  for (const FurtherPart& part : further_parts)
+    if (part.check) part.check(root, built, diagnostics);
 }
 
 const std::vector<KeyRow>& key_table() {

@@ -53,16 +53,23 @@ Rows shape_rows();
 Rows motion_rows();
 
 /// A part of a case that has a file of its own with its rows and its reader, which is called when
-/// fabrics, plies, tools and boundaries are read. The list: core/input/keys/schema_case.cpp.
+/// fabrics, plies, tools and boundaries are read, and may have what it needs of other parts, which
+/// is asked when all parts are read and have no mistakes. The list:
+/// core/input/keys/schema_case.cpp.
 struct FurtherPart {
   Rows (*rows)();
   void (*read)(const TableView& root, Case& built, Diagnostics& diagnostics);
+  void (*check)(const TableView& root, const Case& built, Diagnostics& diagnostics) = nullptr;
 };
 void read_further_parts(const TableView& root, Case& built, Diagnostics& diagnostics);
+/// The one place from which parts are asked what they need of each other: of parts with mistakes
+/// nothing follows, and nothing is there to be asked.
+void check_further_parts(const TableView& root, const Case& built, Diagnostics& diagnostics);
 
 /// core/input/keys/process_clock.cpp: the clock of the process.
 Rows process_rows();
 void read_process(const TableView& root, Case& built, Diagnostics& diagnostics);
+void check_process(const TableView& root, const Case& built, Diagnostics& diagnostics);
 /// Reports a fabric whose laws have rates, as `rated` says, without process.duration; warns of one
 /// that does nothing.
 void check_clock(const TableView& root, const Case& built, bool (*rated)(const Fabric&),

@@ -36,10 +36,21 @@ std::string item_of(const TableView& section, const std::string& key);
 const TomlNode* given(const TableView& section, const std::string& key);
 
 TableView subsection(const TableView& section, const std::string& key);
-/// The tables of a list of tables or the tables of a map.
+/// The tables of a list of tables or the tables of a map; none of one that is wrong as a whole, as
+/// it is no list, or has more than there may be.
 std::vector<TableView> subsections(const TableView& section, const std::string& key);
 
 /// Stands for a number that is not given or invalid: comparisons with it fail.
+/// Whether nothing in it was found wrong, and nothing in it is missing: whoever compares values of
+/// several keys may ask for it.
+bool is_sound(const TableView& section);
+/// The same of one key; of one that is not there nothing is wrong.
+bool is_sound(const TableView& section, const std::string& key);
+
+/// Whether all names of the tables of a list or a map are known, so that a word that is none of
+/// them names nothing: there are tables, and none without its name.
+bool knows_names(const TableView& section, const std::string& key);
+
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 /// Values in the program's units (mm, N, s, t, rad). `not_given` or empty if not given or invalid,

@@ -2,6 +2,7 @@
 // Values of keys that check_section found valid, in the program's units.
 #include "core/input/keys/schema_check.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
@@ -33,7 +34,7 @@ TableView subsection(const TableView& section, const std::string& key) {
 std::vector<TableView> subsections(const TableView& section, const std::string& key) {
   std::vector<TableView> sections;
   TomlNode* value = section.entry ? section.entry->find(key) : nullptr;
-  if (!value) return sections;
+  if (!value || !value->valid) return sections;
   const std::string pattern = pattern_of(section.pattern, key), item = item_of(section, key);
   const bool map = value->kind == TomlNode::Kind::table;
   for (std::size_t i = 0; i < value->children.size(); ++i) {
@@ -43,6 +44,32 @@ std::vector<TableView> subsections(const TableView& section, const std::string& 
     sections.push_back({table, pattern + (map ? ".NAME" : "[]"), item + "." + name});
   }
   return sections;
+}
+
+namespace {
+
+bool all_valid(const TomlNode& node) {
+  return node.valid && std::all_of(node.children.begin(), node.children.end(), all_valid);
+}
+
+} // namespace
+
+bool is_sound(const TableView& section) {
+  return section.entry && all_valid(*section.entry);
+}
+
+bool is_sound(const TableView& section, const std::string& key) {
+  const TomlNode* value = section.entry ? section.entry->find(key) : nullptr;
+  return !value || all_valid(*value);
+}
+
+bool knows_names(const TableView& section, const std::string& key) {
+  const TomlNode* tables = given(section, key);
+  if (!tables) return false;
+  if (tables->kind == TomlNode::Kind::table) return true; // a map: their keys are the names
+  const std::vector<TableView> sections = subsections(section, key);
+  return std::all_of(sections.begin(), sections.end(),
+                     [](const TableView& table) { return given(table, "name") != nullptr; });
 }
 
 double number(const TableView& section, const std::string& key) {
@@ -96,7 +123,9 @@ void value_error(const TableView& section, const std::string& key, const std::st
 
 void row_error(const TableView& section, const std::string& key, std::size_t row,
                const std::string& rule, const std::string& remedy, Diagnostics& diagnostics) {
-  const TomlNode& entry = given(section, key)->children[row];
+  TomlNode* value = section.entry ? section.entry->find(key) : nullptr;
+  if (!value || row >= value->children.size()) return;
+  const TomlNode& entry = value->children[row];
   diagnostics.error(entry.at, fmt::format("{}.{}", item_of(section, key), row), entry.source_text,
                     rule, remedy);
 }

@@ -246,14 +246,17 @@ void read_temperatures(const TableView& root, Case& built, Diagnostics& diagnost
   const std::vector<TableView> tools = subsections(root, "tool");
   for (std::size_t t = 0; t < tools.size() && t < built.tools.size(); ++t)
     built.tools[t].temperature = read_course(tools[t], "temperature", diagnostics);
+  const TableView section = subsection(subsection(root, "process"), "cooling");
+  if (!section.entry) return;
+  Cooling& cooling = built.process.cooling.emplace();
+  read_members(section, cooling);
+  cooling.surroundings = read_course(section, "surroundings", diagnostics);
+}
+
+void check_temperatures(const TableView& root, const Case& built, Diagnostics& diagnostics) {
   check_all_plies(root, built, diagnostics);
   const TableView section = subsection(subsection(root, "process"), "cooling");
-  if (section.entry) {
-    Cooling& cooling = built.process.cooling.emplace();
-    read_members(section, cooling);
-    cooling.surroundings = read_course(section, "surroundings", diagnostics);
-    check_cooling(root, section, built, diagnostics);
-  }
+  if (section.entry) check_cooling(root, section, built, diagnostics);
   check_use(root, built, diagnostics);
   check_laws(root, built, diagnostics);
   check_films(root, built, diagnostics);

@@ -30,6 +30,8 @@ Rows process_temperature_rows();
 /// Reads what these rows are of the case whose fabrics, plies, tools and other keys of [process]
 /// have been read.
 void read_temperatures(const TableView& root, Case& built, Diagnostics& diagnostics);
+/// Checks what they need of the rest of a case without mistakes.
+void check_temperatures(const TableView& root, const Case& built, Diagnostics& diagnostics);
 /// core/input/keys/film_temperature.cpp: what laws of friction over temperature need of such a
 /// case.
 void check_films(const TableView& root, const Case& built, Diagnostics& diagnostics);

@@ -45,7 +45,7 @@ TemperatureFactor read_factor_table(const TableView& section, double reference,
     table.temperature.push_back(rows[i].x()), table.values.push_back(rows[i].y());
   }
   if (rows.size() < 2) return {};
-  if (!(reference >= table.temperature.front() && reference <= table.temperature.back())) {
+  if (reference < table.temperature.front() || reference > table.temperature.back()) {
     value_error(section, "table",
                 fmt::format("goes from {:g} to {:g} degC, without the reference of {:g}",
                             table.temperature.front(), table.temperature.back(), reference),

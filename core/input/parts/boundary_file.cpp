@@ -18,13 +18,14 @@ std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<P
       const auto it = std::find_if(plies.begin(), plies.end(), [&](const Ply& ply) {
         return ply.name == text(section, "ply");
       });
-      if (it == plies.end())
+      if (it != plies.end())
+        b.ply = static_cast<int>(it - plies.begin());
+      else if (knows_names(root, "ply"))
         value_error(section, "ply", "names no ply of this case", "leave it out to hold all plies",
                     diagnostics);
-      else
-        b.ply = static_cast<int>(it - plies.begin());
     }
-    if (given(section, "kind")) b.kind = read_boundary_kind(section, tools, diagnostics);
+    const NamedTools named{tools, knows_names(root, "tool")};
+    if (given(section, "kind")) b.kind = read_boundary_kind(section, named, diagnostics);
     boundaries.push_back(b);
   }
   return boundaries;

@@ -117,7 +117,7 @@ std::vector<Fabric> read_fabrics(const TableView& root, Diagnostics& diagnostics
     const std::size_t before = diagnostics.errors.size();
     fabrics.push_back(
         read_fabric(section, section.item.substr(std::string("fabrics.").size()), diagnostics));
-    if (diagnostics.errors.size() == before)
+    if (is_sound(section) && diagnostics.errors.size() == before)
       check_fabric_sense(section, fabrics.back(), diagnostics);
   }
   return fabrics;

@@ -68,11 +68,11 @@ void check_name(const TableView& table, const Fabric& fabric, Diagnostics& diagn
 void check_number(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
   const std::size_t all = fabric.families.size() + fabric.stitches.size();
   if (all <= most_families) return;
-  diagnostics.error(given(section, "stitch")->at, item_of(section, "stitch"), "",
-                    fmt::format("has directions that make {} with the families, and {} are the "
-                                "most",
-                                all, most_families),
-                    "put stitches of one direction together, with the sum of their densities");
+  value_error(section, "stitch",
+              fmt::format("has directions that make {} with the families, and {} are the most", all,
+                          most_families),
+              "put stitches of one direction together, with the sum of their densities",
+              diagnostics);
 }
 
 } // namespace
@@ -101,10 +101,9 @@ void read_stitches(const TableView& section, Fabric& fabric, Diagnostics& diagno
                   "give pattern = \"pillar\" and one direction, or two that differ", diagnostics);
   }
   if (tables.empty()) return;
-  if (fabric.families.empty())
-    diagnostics.error(given(section, "stitch")->at, item_of(section, "stitch"), "",
-                      "stands in a fabric without yarns",
-                      "give the [[family]] that it holds, or take it out");
+  if (fabric.families.empty() && is_sound(section, "family"))
+    value_error(section, "stitch", "stands in a fabric without yarns",
+                "give the [[family]] that it holds, or take it out", diagnostics);
   check_number(section, fabric, diagnostics);
 }
 

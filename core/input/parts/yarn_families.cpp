@@ -171,9 +171,11 @@ YarnFamily read_family(const TableView& section, Diagnostics& diagnostics) {
 
 namespace {
 
-/// The index of the family that a crossing names; nothing if there is none, which is reported.
+/// The index of the family that a crossing names; nothing if there is none, which is reported,
+/// unless families have mistakes.
 std::optional<std::size_t> family_named(const TableView& crossing, std::size_t place,
-                                        const Fabric& fabric, Diagnostics& diagnostics) {
+                                        const Fabric& fabric, bool all_known,
+                                        Diagnostics& diagnostics) {
   const TomlNode* names = given(crossing, "families");
   if (!names) return std::nullopt;
   const TomlNode& name = names->children[place];
@@ -182,22 +184,26 @@ std::optional<std::size_t> family_named(const TableView& crossing, std::size_t p
     if (fabric.families[a].name == name.text) return a;
     known.push_back(fabric.families[a].name);
   }
-  diagnostics.error(name.at, fmt::format("{}.{}", item_of(crossing, "families"), place),
-                    name.source_text, "names no family of this fabric",
-                    "give one of " + joined(known));
+  if (all_known)
+    diagnostics.error(name.at, fmt::format("{}.{}", item_of(crossing, "families"), place),
+                      name.source_text, "names no family of this fabric",
+                      "give one of " + joined(known));
   return std::nullopt;
 }
 
-Crossing read_crossing(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
+/// all_known: whether the families' names are.
+Crossing read_crossing(const TableView& section, const Fabric& fabric, bool all_known,
+                       Diagnostics& diagnostics) {
   Crossing crossing;
   crossing.shear = read_shear(section, diagnostics);
   crossing.viscous = read_viscous_shear(section, diagnostics);
-  const std::optional<std::size_t> first = family_named(section, 0, fabric, diagnostics),
-                                   second = family_named(section, 1, fabric, diagnostics);
+  const std::optional<std::size_t> first = family_named(section, 0, fabric, all_known, diagnostics),
+                                   second =
+                                       family_named(section, 1, fabric, all_known, diagnostics);
   if (!first || !second) return crossing;
   crossing.first = *first, crossing.second = *second;
   constexpr double least = 1e-3; // sine of the angle between them
-  if (!(std::sin(crossing_angle(fabric, crossing)) > least))
+  if (std::sin(crossing_angle(fabric, crossing)) <= least)
     value_error(section, "families", "must be two families that are not parallel",
                 "give families at an angle to each other", diagnostics);
   const auto same = [&](const Crossing& other) {
@@ -280,17 +286,20 @@ void check_hold(const TableView& section, const Fabric& fabric, Diagnostics& dia
 
 void read_families(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errors.size();
+  const bool sound = is_sound(section);
   for (const TableView& family : subsections(section, "family"))
     fabric.families.push_back(read_family(family, diagnostics));
   const std::vector<bool> turned = order_angles(fabric);
+  const bool all_known = knows_names(section, "family");
+  Diagnostics unheard; // what would follow from families with mistakes
+  Diagnostics& told = is_sound(section, "family") ? diagnostics : unheard;
   check_names(section, fabric, diagnostics);
   for (const TableView& crossing : subsections(section, "crossing")) {
-    fabric.crossings.push_back(read_crossing(crossing, fabric, diagnostics));
-    if (!fabric.families.empty())
-      check_sign(crossing, fabric.crossings.back(), turned, diagnostics);
+    fabric.crossings.push_back(read_crossing(crossing, fabric, all_known, diagnostics));
+    if (!fabric.families.empty()) check_sign(crossing, fabric.crossings.back(), turned, told);
   }
-  read_sheet_beside(subsection(section, "sheet"), fabric, diagnostics);
-  if (diagnostics.errors.size() == before) check_hold(section, fabric, diagnostics);
+  read_sheet_beside(subsection(section, "sheet"), fabric, told);
+  if (sound && diagnostics.errors.size() == before) check_hold(section, fabric, diagnostics);
 }
 
 } // namespace plyform

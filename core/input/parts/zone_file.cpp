@@ -79,8 +79,8 @@ MeshZone read_zone(const TableView& section, const Vec2& origin, const BlankSpec
     for (Vec2& corner : zone.outline)
       corner += place;
   }
-  if (diagnostics.errors.size() == errors && given(section, shape) && has_outline(blank) &&
-      !lies_on(zone, blank.outline))
+  if (is_sound(section) && diagnostics.errors.size() == errors && given(section, shape) &&
+      has_outline(blank) && !lies_on(zone, blank.outline))
     value_error(section, shape, "makes a zone beside the blank",
                 "move it onto the blank; it is seen from the blank's centre, as holes are",
                 diagnostics);

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -86,6 +87,19 @@ TEST(BrokenCases, HaveMessagesOfTheirOwn) {
     for (const CaseError& e : prepare_case(data_folder / "broken" / (name + ".toml"), {}).errors)
       EXPECT_TRUE(messages.insert(e.item + "|" + e.value + "|" + e.rule + "|" + e.remedy).second)
           << name << ": " << e.text();
+}
+
+// What follows from a mistake is no message of its own, least of all one with numbers that are
+// none.
+TEST(BrokenCases, AreToldOfByNumbersAlone) {
+  const std::regex none("(^|[^A-Za-z0-9_.\"/-])[-+]?(nan|inf)\\b");
+  for (const std::string& name : broken_files()) {
+    const PreparedCase reading = prepare_case(data_folder / "broken" / (name + ".toml"), {});
+    for (const CaseError& e : reading.errors)
+      EXPECT_FALSE(std::regex_search(e.rule + "|" + e.remedy, none)) << name << ": " << e.text();
+    for (const std::string& warning : reading.warnings)
+      EXPECT_FALSE(std::regex_search(warning, none)) << name << ": " << warning;
+  }
 }
 
 TEST(CaseFile, ReportsAllMistakesOfAllFilesAtOnce) {
