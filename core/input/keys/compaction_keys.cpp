@@ -44,7 +44,7 @@ Rows compaction_rows() {
        .meaning = "n of it"},
       {.key = table + ".densest",
        .otherwise = "none",
-       .ranges = {{.least = 0.01, .most = 0.9069}},
+       .ranges = {{.least = 0.01, .most = densest_packing}},
        .usual = {{.least = 0.4, .most = 0.85}},
        .meaning = "fibre volume fraction at the densest packing, where it ends"},
       {.key = table + ".unloading",

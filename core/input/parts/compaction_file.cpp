@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/parts/compaction_file.hpp"
 
+#include "core/input/keys/compaction_keys.hpp"
 #include "core/input/keys/key_member.hpp"
 
 #include <cmath>
@@ -27,6 +28,24 @@ struct CompactionReader {
     value_error(section, key, rule, remedy, diagnostics);
   }
 
+  /// mm, the thickness of the fibres alone.
+  double weight() const { return fabric.surface_density / *fabric.fibre_density; }
+
+  /// Reports a table that goes on to thicknesses in which the fibres have no room.
+  bool has_room(const Compaction& c) const {
+    const double volume = weight() / (c.densest() - c.nesting);
+    constexpr double rounding = 1e-9;
+    if (!(volume > densest_packing * (1.0 + rounding))) return true;
+    fail(given(section, "table") ? "table" : "densest",
+         fmt::format("goes to {:g} mm{}, where fibres would be {:.1f} % of the volume, and no "
+                     "packing of fibres goes above {:g} %",
+                     c.densest(),
+                     c.nesting > 0.0 ? fmt::format(" less the nesting of {:g} mm", c.nesting) : "",
+                     100.0 * volume, 100.0 * densest_packing),
+         "leave out what no press reaches, or check thickness, surface_density and fibre_density");
+    return false;
+  }
+
   /// A table of [thickness, pressure]; empty if it is not given or wrong.
   ThicknessCurve curve(const std::string& key) const {
     ThicknessCurve curve;
@@ -51,21 +70,22 @@ struct CompactionReader {
 
   ThicknessCurve by_formula() const {
     for (const char* key : {"exponent", "densest"})
-      if (!given(section, key)) {
+      if (!is_sound(section, key)) {
+        return {}; // told
+      } else if (!given(section, key)) {
         fail("stiffness", fmt::format("needs {} beside it", key),
              "give stiffness, exponent and densest, or a table");
         return {};
       }
-    const double weight = fabric.surface_density / *fabric.fibre_density;
-    const double densest = number(section, "densest"), loose = weight / fabric.thickness;
-    if (!(densest > loose)) {
+    const double densest = number(section, "densest"), loose = weight() / fabric.thickness;
+    if (densest <= loose) {
       fail("densest",
            fmt::format("must be more than the fibre volume before forming, {:.3g} with {:g} mm",
                        loose, fabric.thickness),
            "give what the mould packs it to, or check thickness, surface_density, fibre_density");
       return {};
     }
-    return toll_manson(number(section, "stiffness"), number(section, "exponent"), densest, weight,
+    return toll_manson(number(section, "stiffness"), number(section, "exponent"), densest, weight(),
                        fabric.thickness);
   }
 
@@ -114,12 +134,32 @@ void read_compaction(const TableView& section, Fabric& fabric, Diagnostics& diag
     if (c.unloading.thickness.size() < 2 || !reader.ends_alike(c)) return;
   }
   c.nesting = number(section, "nesting");
-  if (!(c.nesting < 0.5 * c.densest()))
+  if (c.nesting >= 0.5 * c.densest())
     return reader.fail(
         "nesting",
         fmt::format("must be less than half of the densest packing, {:.3g} mm", c.densest()),
         "give what two plies lose together, some percent of the thickness");
-  fabric.compaction = std::move(c);
+  if (reader.has_room(c)) fabric.compaction = std::move(c);
+}
+
+bool check_fibre_volume(const TableView& fabric_section, const Fabric& fabric,
+                        Diagnostics& diagnostics) {
+  if (!fabric.fibre_density) return true;
+  const double volume = fabric.surface_density / *fabric.fibre_density / fabric.thickness;
+  if (!(volume > densest_packing)) return true;
+  const auto words = [&](const char* key) {
+    const TomlNode* value = given(fabric_section, key);
+    return value ? value->source_text : std::string();
+  };
+  value_error(fabric_section, "fibre_density",
+              fmt::format("with surface_density = {} and thickness = {} makes {:.1f} % of the "
+                          "volume fibres, and no packing of fibres goes above {:g} %",
+                          words("surface_density"), words("thickness"), 100.0 * volume,
+                          100.0 * densest_packing),
+              "check the three: fibre_density in g/cm3, 2.55 of E glass, surface_density in g/m2, "
+              "thickness in mm",
+              diagnostics);
+  return false;
 }
 
 } // namespace plyform

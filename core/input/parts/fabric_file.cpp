@@ -53,7 +53,9 @@ Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics
   Fabric fabric;
   fabric.name = key;
   read_members(section, fabric);
-  read_compaction(subsection(section, "compaction"), fabric, diagnostics);
+  if (given(section, "thickness") && given(section, "surface_density") &&
+      is_sound(section, "fibre_density") && check_fibre_volume(section, fabric, diagnostics))
+    read_compaction(subsection(section, "compaction"), fabric, diagnostics);
   read_fabric_temperature(subsection(section, "temperature"), fabric, diagnostics);
   if (read_sheet(section, fabric, diagnostics)) return fabric;
   if (text(section, "law") == families_word)
