@@ -102,7 +102,7 @@ std::string missed_accuracy(const Case& data) {
   const PredictedError error = predicted_error(data);
   const double wanted = data.accuracy.shear_error / degree, promised = error.promised(data);
   constexpr double rounding = 1.01; // of what is printed with two digits
-  if (!(wanted > 0.0) || !(promised > rounding * wanted)) return {};
+  if (!(wanted > 0.0) || !(promised > rounding * wanted) || std::isinf(promised)) return {};
   std::string text =
       fmt::format("accuracy asked for: shear angles to {:.2g} deg rms are out of reach, {:.2g} deg "
                   "is what this "

@@ -37,6 +37,29 @@ void check_size(CaseReading& reading) {
   reading.value.reset();
 }
 
+/// Refuses meshes whose triangles, or the smallest of them, would take as much.
+std::optional<CaseError> fault_of_meshes(const Case& data, const std::vector<BlankMesh>& meshes,
+                                         const CaseParts& parts) {
+  const SizeAhead size = size_of_meshes(data, meshes, available_cores());
+  const double memory = machine_memory();
+  if (!too_large(size, memory)) return std::nullopt;
+  const SourceLocation& blank = parts.blanks[at(data.plies[size.ply].blank)];
+  return CaseError{
+      blank.at.file,
+      blank.at.line,
+      blank.at.column,
+      blank.item,
+      "",
+      fmt::format(
+          "has triangles in its mesh with a height of {:.2g} mm, at ({:.4g}, {:.4g}): about "
+          "{:.2g} steps of {:.0f} triangles, {} of computing and {:.2g} GB of memory",
+          size.smallest, size.where.x(), size.where.y(), size.steps, size.triangles,
+          duration_text(size.seconds), size.bytes / 1e9),
+      "take what is so small out of the outline or its zones (corner_radius), give larger "
+      "elements, "
+      "a shorter solver.duration or more solver.fibre_softening, or go on with --yes-large"};
+}
+
 /// Replaces what is said of a scene that cannot work by what is at its bottom: a body in another
 /// unit.
 void blame(const UnitSuspicion& unit, CaseReading& reading) {
@@ -70,6 +93,11 @@ std::vector<BlankMesh> check_scene_and_units(CaseReading& reading, CaseSize size
   std::vector<BlankMesh> meshes;
   if (size == CaseSize::sensible) check_size(reading);
   if (reading.value) meshes = check_case(reading);
+  if (reading.value && size == CaseSize::sensible)
+    if (auto fault = fault_of_meshes(*reading.value, meshes, reading.parts)) {
+      reading.errors.push_back(std::move(*fault));
+      reading.value.reset();
+    }
   const bool broken = !reading.value;
   if (broken && !unit) unit = suspect_unit(before, reading.parts, true);
   if (!unit) return meshes;
@@ -84,6 +112,18 @@ std::vector<BlankMesh> check_scene_and_units(CaseReading& reading, CaseSize size
 void check_prediction(CaseReading& reading) {
   constexpr double most = 10.0, good = 3.0; // degrees: a third of what parts are sheared; a draft
   const PredictedError error = predicted_error(*reading.value);
+  if (std::isinf(error.inertia) || std::isinf(error.softening)) {
+    const SourceLocation& solver = reading.parts.solver;
+    reading.errors.push_back(
+        {solver.at.file, solver.at.line, solver.at.column, "solver.duration",
+         fmt::format("{:g}", reading.value->solver.duration),
+         "is none in which these fabrics could be formed: they have no stiffness to speak of, or "
+         "no time",
+         "check stiffness and shear of the fabrics, or give a solver.duration without asking for "
+         "an "
+         "accuracy"});
+    return reading.value.reset();
+  }
   if (!(std::hypot(error.inertia, error.softening) > most)) return;
   const bool fast = error.inertia > error.softening;
   const std::string remedy =
@@ -168,7 +208,17 @@ PreparedCase prepare_case(const std::filesystem::path& file, const std::vector<O
   prepared.warnings = std::move(picked.reading.warnings);
   prepared.notes = std::move(picked.notes);
   prepared.fixed = picked.fixed;
+  prepared.parts = std::move(picked.reading.parts);
+  prepared.size = size;
   return prepared;
+}
+
+void check_meshes(PreparedCase& prepared) {
+  if (!prepared.value || prepared.size == CaseSize::any) return;
+  auto fault = fault_of_meshes(*prepared.value, prepared.meshes, prepared.parts);
+  if (!fault) return;
+  prepared.errors.push_back(std::move(*fault));
+  prepared.value.reset();
 }
 
 } // namespace plyform

@@ -21,6 +21,10 @@ struct PickedCase {
 /// pick_cost_parameters, which chooses the others around them; a note says so.
 PickedCase pick_case(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
+/// Whether a case may be of any size, or one that is too_large (size_ahead.hpp) is an error before
+/// its blanks are meshed, and by the meshes that were made.
+enum class CaseSize { any, sensible };
+
 struct PreparedCase {
   std::optional<Case> value;                              ///< only when there is no error
   std::vector<BlankMesh> meshes;                          ///< one per ply
@@ -31,14 +35,16 @@ struct PreparedCase {
   std::vector<std::string> warnings;
   std::vector<std::string> notes; ///< as in PickedCase
   FixedParameters fixed;          ///< as in PickedCase
+  CaseParts parts = {};           ///< where they stand
+  CaseSize size = CaseSize::any;
 };
-
-/// Whether a case may be of any size, or one that is too_large (size_ahead.hpp) is an error before
-/// its blanks are meshed.
-enum class CaseSize { any, sensible };
 
 /// pick_case, check_case.
 PreparedCase prepare_case(const std::filesystem::path& file, const std::vector<Override>& overrides,
                           CaseSize size = CaseSize::any);
+
+/// Reports that the case with its meshes is too large, if it is and must not be; it has no value
+/// then.
+void check_meshes(PreparedCase& prepared);
 
 } // namespace plyform

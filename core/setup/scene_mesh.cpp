@@ -40,6 +40,15 @@ SizeGrid sizes_of_before(const std::vector<PlySizes>& before, const std::string&
   return found->sizes;
 }
 
+std::string not_known(const Scouted& scouted) {
+  return fmt::format("the mesh from the scene, and with it steps and time, are not known: the run "
+                     "with coarse elements that looks where small ones are needed has not ended "
+                     "after {:.2g} million element-steps. plyform run goes on to its end; larger "
+                     "elements, a shorter stroke or zones by hand in the place of mesh_from take "
+                     "less",
+                     1e-6 * scouted.work);
+}
+
 /// Finds the sizes of every ply that asks for some.
 SceneMesh find_sizes(const Case& data, int threads, const ScoutHooks& hooks,
                      const std::filesystem::path& known) {
@@ -59,17 +68,35 @@ SceneMesh find_sizes(const Case& data, int threads, const ScoutHooks& hooks,
     }
     if (scouted.sizes.empty()) {
       scouted = scout(data, error_of_mesh(data), threads, hooks);
-      if (!scouted.fault.empty())
-        throw std::runtime_error("the run with coarse elements that looks where small ones are "
-                                 "needed (mesh_from = \"scene\") did not go to its end: " +
-                                 scouted.fault + "; give zones by hand instead");
-      found.scouted = true;
       found.scout_work = scouted.work;
       found.scout_seconds = scouted.seconds;
+      if (scouted.gave_up) {
+        found.sizes.clear();
+        found.not_known = not_known(scouted);
+        return found;
+      }
+      if (!scouted.fault.empty())
+        throw ScoutStopped("the run with coarse elements that looks where small ones are "
+                           "needed (mesh_from = \"scene\") did not go to its end: " +
+                           scouted.fault + "; give zones by hand instead");
+      found.scouted = true;
     }
     found.sizes.push_back({data.plies[p].name, scouted.sizes[p]});
   }
   return found;
+}
+
+/// Reports what is wrong with the sizes of the first blank that asks for some.
+void report(PreparedCase& prepared, const std::string& message) {
+  const std::vector<BlankSpec>& blanks = prepared.value->blanks;
+  const auto first = std::find_if(blanks.begin(), blanks.end(),
+                                  [](const BlankSpec& blank) { return !blank.mesh_from.empty(); });
+  const SourceLocation& place =
+      prepared.parts.blanks[static_cast<std::size_t>(first - blanks.begin())];
+  Diagnostics told;
+  told.error_from(place.at, place.item + ".mesh_from", first->mesh_from, "", message);
+  prepared.errors.push_back(std::move(told.errors.front()));
+  prepared.value.reset();
 }
 
 /// Gives each of these plies a blank of its own with its sizes, and a mesh of it.
@@ -107,8 +134,20 @@ SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const ScoutHooks&
   for (std::size_t p = 0; p < data.plies.size(); ++p)
     asked = asked || !blank_of(data, p).mesh_from.empty();
   if (!asked) return {};
-  SceneMesh found = find_sizes(data, threads, hooks, known);
+  SceneMesh found;
+  try {
+    found = find_sizes(data, threads, hooks, known);
+  } catch (const ScoutStopped&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    if (!known.empty()) throw; // not what the case says
+    report(prepared, error.what());
+    return {};
+  }
+  if (!found.not_known.empty()) return found;
   give_sizes(prepared, found.sizes);
+  check_meshes(prepared);
+  if (!prepared.value) return found;
   measure(prepared, found);
   prepared.identity += fmt::format("mesh sizes: {:016x}\n", checkpoint_sum(text_of(found.sizes)));
   prepared.notes.push_back(

@@ -18,12 +18,18 @@ struct SceneMesh {
   double triangles = 0.0;      ///< of all plies
   double smallest = 0.0, largest = 0.0; ///< mm, sides of the squares of two triangles
   std::string warning;                  ///< of an accuracy that is out of reach; else empty
+  std::string not_known; ///< why no sizes were found within the most work; else empty
+};
+
+/// A scout that did not go to its end, where and when.
+struct ScoutStopped : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Gives the plies of `prepared` that ask for it sizes and meshes; its identity tells the sizes, a
 /// note what was done. known: the folder of a run that goes on, whose sizes hold, or nothing. What
-/// is wrong with a file of sizes is added to its errors. Throws std::runtime_error if the scout is
-/// stopped by a fault, saying where and when.
+/// is too large for a case of sensible size is added to its errors, and it has no value then.
+/// Throws ScoutStopped, and std::runtime_error if a file of sizes cannot be used.
 SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const ScoutHooks& hooks = {},
                           const std::filesystem::path& known = {});
 

@@ -3,11 +3,13 @@
 
 #include "core/accuracy/cost_parameters.hpp"
 #include "core/mesh/mesh_blank.hpp"
+#include "core/mesh/mesh_ply.hpp"
 #include "core/setup/chord_sizes.hpp"
 #include "core/setup/shear_sizes.hpp"
 #include "core/setup/size_grid.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plyform {
 namespace {
@@ -60,14 +62,28 @@ namespace {
 struct Look {
   RunResult result;
   std::vector<AskedSizes> sizes; ///< that chords ask for
+  bool gave_up = false;          ///< at the most work
 };
 
-Look run_once(const Case& fast, const Case& data, int threads, const ScoutHooks& hooks) {
+/// most_work: triangles times steps after which it is ended as by an interrupt.
+Look run_once(const Case& fast, const Case& data, int threads, const ScoutHooks& hooks,
+              double most_work) {
   Look look;
   look.sizes.resize(fast.plies.size());
+  std::vector<BlankMesh> meshes;
+  double triangles = 0.0;
+  for (const Ply& ply : fast.plies) {
+    meshes.push_back(mesh_ply(fast, ply));
+    triangles += static_cast<double>(meshes.back().triangles.size());
+  }
+  std::atomic<bool> ends{false};
   RunHooks run;
-  run.progress = hooks.progress;
-  run.interrupt = hooks.interrupt;
+  run.progress = [&](const Progress& p) {
+    if (hooks.progress) hooks.progress(p);
+    look.gave_up = static_cast<double>(p.step) * triangles >= most_work;
+    ends = look.gave_up || (hooks.interrupt && *hooks.interrupt);
+  };
+  run.interrupt = std::isfinite(most_work) ? &ends : hooks.interrupt;
   run.watch = hooks.watch;
   run.frame = [&](const Frame& state) {
     for (std::size_t p = 0; p < look.sizes.size(); ++p)
@@ -78,7 +94,7 @@ Look run_once(const Case& fast, const Case& data, int threads, const ScoutHooks&
       }
     lower_to_chords(fast, state, {}, look.sizes);
   };
-  look.result = run_case(fast, threads, run);
+  look.result = run_case(fast, threads, run, meshes);
   return look;
 }
 
@@ -121,8 +137,11 @@ Scouted scout(const Case& data, double shear_error, int threads, const ScoutHook
   Scouted scouted;
   for (int runs = 1; runs <= most_runs; ++runs) {
     if (hooks.begins) hooks.begins(runs);
-    Look look = run_once(runs == 1 ? fast : finer(fast, scouted.sizes), data, threads, hooks);
+    Look look = run_once(runs == 1 ? fast : finer(fast, scouted.sizes), data, threads, hooks,
+                         hooks.most_work - scouted.work);
     add_cost(look.result, scouted);
+    scouted.gave_up = look.gave_up;
+    if (look.gave_up) return scouted;
     if (look.result.summary.status != "done" && look.result.summary.status != "doubtful") {
       scouted.fault = look.result.summary.message;
       return scouted;

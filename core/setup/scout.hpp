@@ -8,6 +8,7 @@
 
 #include "core/run/run.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace plyform {
@@ -17,11 +18,14 @@ struct ScoutHooks {
   std::function<void(const Progress&)> progress = {}; ///< as in RunHooks
   const std::atomic<bool>* interrupt = nullptr;       ///< as in RunHooks
   RunHooks::Watch watch = {};                         ///< as in RunHooks
+  /// Triangles times steps of all its runs after which it ends without an answer.
+  double most_work = std::numeric_limits<double>::infinity();
 };
 
 struct Scouted {
   std::vector<SizeGrid> sizes; ///< one per ply; of no use if the scout did not go to its end
   std::string fault;           ///< why it did not
+  bool gave_up = false;        ///< at ScoutHooks::most_work
   double work = 0.0;           ///< triangles times steps, of all its runs
   double seconds = 0.0;        ///< wall time
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case will take, estimated before any mesh is made: triangles, memory, time.
+// What a case will take, estimated before any mesh is made, and by the mesh that was: triangles,
+// memory, time.
 #pragma once
 
+#include "core/mesh/mesh_blank.hpp"
 #include "core/model/case.hpp"
 
 namespace plyform {
@@ -11,10 +13,20 @@ struct SizeAhead {
   double bytes = 0.0;     ///< of memory, about
   double seconds = 0.0;   ///< of wall time, about
   int largest = 0;        ///< index of the blank with the most triangles
+  // By a mesh that was made:
+  double steps = 0.0;
+  double smallest = 0.0;     ///< mm, least height of a triangle
+  Vec2 where = Vec2::Zero(); ///< mm, on the blank, a corner of it
+  std::size_t ply = 0;       ///< whose it is
 };
 
 /// threads: that share the work.
 SizeAhead size_ahead(const Case& data, int threads);
+
+/// The same by the meshes of the plies, one each. The step is that of the scene at its start, where
+/// it matters: where that of the smallest triangle alone would be too small. Throws
+/// std::runtime_error as make_scene.
+SizeAhead size_of_meshes(const Case& data, const std::vector<BlankMesh>& meshes, int threads);
 
 /// Bytes of memory, about, that a run with so many triangles of all plies takes at its peak.
 double bytes_for(double triangles);

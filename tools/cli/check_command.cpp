@@ -8,10 +8,25 @@
 
 namespace plyform {
 
+namespace {
+
+// Triangles times steps that looking for a mesh may take here, about half a minute of one core: a
+// check answers at once, and a run may take its time.
+constexpr double most_work = 6e7;
+
+} // namespace
+
 int check_command(const CaseArguments& arguments) {
   PreparedCase prepared = load_case(arguments);
   if (!prepared.value) return exit_case_wrong;
-  load_meshes(arguments, prepared, available_cores());
+  const SceneMesh mesh =
+      load_meshes(arguments, prepared, available_cores(), {.most_work = most_work});
+  if (!prepared.value) return exit_case_wrong;
+  if (!mesh.not_known.empty()) {
+    prepared.warnings.push_back(mesh.not_known);
+    fmt::print(stderr, "{}: warning: {}\n", arguments.file, mesh.not_known);
+    fmt::print("with the largest elements throughout:\n");
+  }
   const Outlook outlook = watched_outlook(prepared, available_cores());
   for (const std::string& line : outlook.lines)
     fmt::print("{}\n", line);

@@ -114,11 +114,18 @@ struct TheoryArguments {
 /// prepare_case; prints warnings and errors to standard error. Has no value if there was an error.
 PreparedCase load_case(const CaseArguments& arguments);
 
+/// Who looks for meshes from the scene, beside the terminal.
+struct MeshingFor {
+  std::filesystem::path known = {};                           ///< as of mesh_from_scene
+  ProgressFile* file = nullptr;                               ///< of a run, kept
+  LivePicture* picture = nullptr;                             ///< likewise, drawn
+  double most_work = std::numeric_limits<double>::infinity(); ///< as of ScoutHooks
+};
+
 /// mesh_from_scene; shows the progress of its scout, and prints errors to standard error, after
-/// which the case has no value. known: as there. file, picture: of a run, kept and drawn too.
+/// which the case has no value.
 SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, int threads,
-                      const std::filesystem::path& known = {}, ProgressFile* file = nullptr,
-                      LivePicture* picture = nullptr);
+                      const MeshingFor& whom);
 
 /// look_ahead; shows its progress.
 Outlook watched_outlook(const PreparedCase& prepared, int threads);

@@ -39,8 +39,7 @@ PreparedCase load_case(const CaseArguments& arguments) {
 }
 
 SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, int threads,
-                      const std::filesystem::path& known, ProgressFile* file,
-                      LivePicture* picture) {
+                      const MeshingFor& whom) {
   ProgressLine line;
   ScoutHooks hooks;
   int scouting = 0;
@@ -51,18 +50,22 @@ SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, in
     if (run == 1) fmt::print("{}\n", words);
     std::fflush(stdout);
     if (run > 1) words += fmt::format("; run {}, with smaller ones", run);
-    if (file) file->begin(RunPhase::meshing, words);
+    if (whom.file) whom.file->begin(RunPhase::meshing, words);
   };
   hooks.progress = [&](const Progress& p) {
     line.show(p, "looking where small elements are needed");
-    if (file) file->show(p, p.fraction, 0);
+    if (whom.file) whom.file->show(p, p.fraction, 0);
   };
   hooks.interrupt = &interrupted();
-  if (picture)
+  hooks.most_work = whom.most_work;
+  if (LivePicture* picture = whom.picture)
     hooks.watch = {[=] { return picture->asked(); },
                    [&, picture](const Frame& f) { picture->draw(f, scouting); }};
-  SceneMesh found = mesh_from_scene(prepared, threads, hooks, known);
+  SceneMesh found = mesh_from_scene(prepared, threads, hooks, whom.known);
   line.end();
+  for (const CaseError& error : prepared.errors)
+    fmt::print(stderr, "{}\n", error.text());
+  if (!prepared.value) return found;
   if (!found.sizes.empty()) fmt::print("{}\n", prepared.notes.back());
   if (found.scouted)
     fmt::print("found with {:.2g} million element-steps in {:.1f} s\n", 1e-6 * found.scout_work,

@@ -3,6 +3,7 @@
 // difference | identify | theory | keys | version.
 #include "base/text.hpp"
 #include "base/version.hpp"
+#include "core/setup/scene_mesh.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/standard_streams.hpp"
 
@@ -175,6 +176,9 @@ int run_chosen(const std::vector<Command>& commands) {
   try {
     for (const Command& command : commands)
       if (command.app->parsed()) return command.act();
+  } catch (const ScoutStopped& e) {
+    fmt::print(stderr, "plyform: {}\n", printable(e.what()));
+    return exit_stopped;
   } catch (const std::exception& e) {
     // with_output_written tells of standard output, if that was it
     if (std::ferror(stdout) == 0) fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));

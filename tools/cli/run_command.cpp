@@ -299,8 +299,10 @@ int run_command(const RunArguments& arguments) {
                        std::filesystem::exists(folder / size_file_name);
   std::optional<LivePicture> picture(std::in_place, folder);
   std::vector<PlySizes> sizes =
-      load_meshes(arguments.input, prepared, threads, goes_on ? folder : "", &*file, &*picture)
+      load_meshes(arguments.input, prepared, threads,
+                  {.known = goes_on ? folder : "", .file = &*file, .picture = &*picture})
           .sizes;
+  if (!prepared.value) return exit_case_wrong;
   if (!within_budget(prepared, arguments, threads, !sizes.empty())) return exit_case_wrong;
   writer.keep_sizes(std::move(sizes));
   std::optional<Resume> resume;

@@ -50,6 +50,27 @@ TEST(SceneMesh, IsFineOverTheDieTheSameForAnyThreadsAndTakenFromAFile) {
   EXPECT_TRUE(same(one.meshes, later.meshes));
 }
 
+TEST(SceneMesh, IsNotKnownWhereLookingForItTakesTooMuch) {
+  PreparedCase bounded = small_hemisphere("scene");
+  ASSERT_TRUE(bounded.value) << all_texts(bounded);
+  const std::vector<BlankMesh> before = bounded.meshes;
+  const SceneMesh found = mesh_from_scene(bounded, 1, {.most_work = 1e5});
+  EXPECT_NE(found.not_known.find("are not known"), std::string::npos);
+  EXPECT_FALSE(found.scouted);
+  EXPECT_TRUE(found.sizes.empty());
+  EXPECT_TRUE(bounded.value);
+  EXPECT_TRUE(same(before, bounded.meshes));
+}
+
+TEST(SceneMesh, OfAFileWithoutSizesIsAMistakeOfTheCase) {
+  PreparedCase lost = small_hemisphere((data_folder / "good/base.toml").string());
+  ASSERT_TRUE(lost.value) << all_texts(lost);
+  mesh_from_scene(lost, 1);
+  EXPECT_FALSE(lost.value);
+  ASSERT_EQ(lost.errors.size(), 1u) << all_texts(lost);
+  EXPECT_EQ(lost.errors[0].item, "blanks.square.mesh_from");
+}
+
 /// The least size that is asked for on a ray from the middle of the blank.
 double least_on_ray(const SizeGrid& grid, double angle) {
   SizeField field;
