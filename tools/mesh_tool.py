@@ -125,7 +125,7 @@ def made_apart(part: Path, minutes: float, act: Callable[[Say], object]):
     theirs.close()
     end, over, answer = time.monotonic() + 60.0 * minutes, False, None
     try:
-        with Progress(f"mesh_tool: {part.name}") as progress:
+        with Progress(f"mesh_tool: {part.name}", staged=True) as progress:
             while not over:
                 if not ours.poll(max(end - time.monotonic(), 0.0)):
                     raise Trouble(f"{part}: the work has come to no end after {minutes:g} minutes: "

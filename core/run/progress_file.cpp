@@ -55,6 +55,7 @@ void ProgressFile::begin(RunPhase phase, const std::string& words) {
   if (phase != phase_) {
     begin_ = Clock::now();
     progress_.reset();
+    left_ = {};
   }
   phase_ = phase;
   words_ = words;
@@ -64,6 +65,7 @@ void ProgressFile::begin(RunPhase phase, const std::string& words) {
 void ProgressFile::show(const Progress& progress, double fraction, std::size_t states) {
   progress_ = progress;
   fraction_ = fraction;
+  left_.show(std::chrono::duration<double>(Clock::now() - begin_).count(), fraction);
   states_ = states;
   if (std::chrono::duration<double>(Clock::now() - written_).count() >= between) write();
 }
@@ -76,8 +78,8 @@ void ProgressFile::write() {
   const Progress now = progress_.value_or(Progress{});
   // The run knows of what it did before it went on; a phase of several runs is timed here.
   const bool one_run = known && phase_ == RunPhase::forming;
-  const double remaining =
-      one_run ? now.remaining_s : passed * (1.0 - fraction_) / std::max(fraction_, 1e-9);
+  const double remaining = one_run ? now.remaining_s : left_.left(passed).value_or(0.0);
+  const bool foreseen = known && (remaining > 0.0 || fraction_ >= 1.0);
   const auto rounded = [](double seconds) { return std::round(10.0 * seconds) / 10.0; };
   Json all;
   all["phase"] = word(phase_);
@@ -86,7 +88,7 @@ void ProgressFile::write() {
   all["stroke_mm"] = or_null(known, now.stroke_mm);
   all["step"] = or_null(known, now.step);
   all["elapsed_s"] = rounded(one_run ? now.elapsed_s : passed);
-  all["remaining_s"] = or_null(known && fraction_ > 0.0, rounded(remaining));
+  all["remaining_s"] = or_null(foreseen, rounded(remaining));
   all["kinetic_over_shear"] = or_null(known, now.kinetic_over_shear);
   all["balance_error"] = or_null(known, now.balance_error);
   all["states"] = states_;

@@ -3,6 +3,7 @@
 // programs that show runs which others have started. Keys: docs/users/results.md.
 #pragma once
 
+#include "base/time_left.hpp"
 #include "core/run/run.hpp"
 
 #include <chrono>
@@ -41,6 +42,7 @@ private:
   double fraction_ = 0.0;
   std::size_t states_ = 0;
   Clock::time_point begin_ = Clock::now(), written_{};
+  TimeLeft left_;
 };
 
 } // namespace plyform

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/run.hpp"
 
+#include "base/time_left.hpp"
 #include "base/version.hpp"
 #include "contact/intersections.hpp"
 #include "core/accuracy/error_model.hpp"
@@ -99,13 +100,18 @@ ContactReport audit(const Scene& s, const Snapshot& good, ThreadPool& pool) {
   return r;
 }
 
-Progress progress_of(const Scene& s, const Energies& e, double elapsed) {
+/// Share of a whole run that is done, its dwell included, which may end earlier.
+double share_done(const Scene& s) {
+  return s.time / (s.data.solver.duration * (1.0 + s.data.solver.dwell));
+}
+
+Progress progress_of(const Scene& s, const Energies& e, double elapsed, double remaining) {
   Progress p;
   p.fraction = std::min(1.0, s.time / s.data.solver.duration);
   p.stroke_mm = current_stroke(s);
   p.step = s.step;
   p.elapsed_s = elapsed;
-  p.remaining_s = p.fraction > 0.0 ? elapsed * (1.0 - p.fraction) / p.fraction : 0.0;
+  p.remaining_s = remaining;
   p.kinetic_over_shear = e.kinetic_over_shear();
   p.balance_error = e.balance_error();
   return p;
@@ -256,6 +262,7 @@ private:
       check_last(hooks_.resume->last);
       result_.last = hooks_.resume->last;
       result_.last.energy = state_.good.energy;
+      begun_at_ = share_done(s_);
       next_mark_ = 1 + static_cast<int>(s_.time / s_.data.solver.duration * hooks_.marks.count);
       return;
     }
@@ -299,6 +306,16 @@ private:
     saved_ = Clock::now();
   }
 
+  void tell_progress() {
+    if (!hooks_.progress) return;
+    const double seconds = seconds_since(begin_);
+    left_.show(seconds, share_done(s_) - begun_at_);
+    // a run that goes on has less to do than all of it
+    const double whole = 1.0 - begun_at_;
+    const double left = left_.left(seconds, whole).value_or(0.0);
+    hooks_.progress(progress_of(s_, state_.energy, elapsed(), left));
+  }
+
   RunState now() const {
     RunState state = state_;
     state.elapsed = elapsed();
@@ -327,7 +344,7 @@ private:
         state_.energy = current_energies(s_, pool_);
         if (auto stop = check_balance(s_, state_.energy, floor_)) return stop;
         keep(s_, state_.energy, state_.good);
-        if (hooks_.progress) hooks_.progress(progress_of(s_, state_.energy, elapsed()));
+        tell_progress();
       }
       if (output) write();
       if (hooks_.watch.asked && hooks_.watch.asked())
@@ -354,7 +371,9 @@ private:
   ThreadPool pool_;
   const RunHooks& hooks_;
   Clock::time_point begin_ = Clock::now(), saved_ = begin_;
-  double floor_ = 0.0; ///< of the check of the energy balance
+  double floor_ = 0.0;    ///< of the check of the energy balance
+  double begun_at_ = 0.0; ///< share_done at the start, of a run that goes on
+  TimeLeft left_;
   int next_mark_ = 1;
   std::vector<TriMesh> tool_surfaces_, watched_surfaces_;
   RunState state_;

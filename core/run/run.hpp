@@ -18,7 +18,7 @@ struct Progress {
   double fraction = 0.0; ///< of the simulated time
   double stroke_mm = 0.0;
   long step = 0;
-  double elapsed_s = 0.0, remaining_s = 0.0; ///< wall time
+  double elapsed_s = 0.0, remaining_s = 0.0; ///< wall time; 0 remain while that is not known
   double kinetic_over_shear = 0.0;
   double balance_error = 0.0;
 };

@@ -41,6 +41,28 @@ def piped(words: list[str]) -> tuple[str, str]:
     return done.stdout, done.stderr
 
 
+def check_left(tools: str) -> None:
+    """Work that slows down to a quarter of its speed halfway: from then on what is told is right within a
+    factor of 1.5, and falls. Stages tell what has passed."""
+    sys.path.insert(0, tools)
+    from base.progress import Progress, TimeLeft
+
+    left, whole, told = TimeLeft(), 250.0, []
+    for second in range(1, 250):
+        left.show(second, second / 100 if second <= 50 else 0.5 + (second - 50) / 400)
+        told.append(left.left(second))
+    assert told[0] is None and 49 <= told[49] <= 51, told[:50]
+    for second, words in enumerate(told, 1):
+        if second >= 110:
+            assert whole - second <= 1.5 * words and words <= 1.5 * (whole - second), (second, words)
+        if second >= 111:
+            assert words <= told[second - 2], (second, words)
+    staged = Progress("mesh_tool", staged=True)
+    staged.show(0.5, "refines")
+    assert staged.line() == "mesh_tool: refines, 50 %, 0 s", staged.line()
+    staged.end()
+
+
 def main() -> None:
     tools = sys.argv[1]
     text = on_terminal(command(tools, 1.9))[1]
@@ -59,6 +81,7 @@ def main() -> None:
     assert out == "ready\n"
     _, error = piped(command(tools, 1.5, "0.5"))
     assert error.endswith("50 %, about 1 s left\n"), error
+    check_left(tools)
     # what a copy of the process shows is drawn
     copy = ("pid = os.fork()\n    if pid == 0:\n        progress.show(0.5, 'of the copy')\n"
             "        os._exit(0)\n    os.waitpid(pid, 0)\n    time.sleep(1.5)\n    progress.end()")

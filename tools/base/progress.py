@@ -16,11 +16,13 @@ import struct
 import sys
 import threading
 import time
+from collections import deque
 from collections.abc import Iterator
 
 FIRST_S = 1.0               # of silence
 TERMINAL_S, LINES_S = 0.2, 5.0  # between what is drawn
 LEAST = 0.02                # a smaller fraction tells nothing of the time left
+LATE, POINTS = 1 / 3, 200   # of the time so far, by which what is left is told; of them at most
 
 SHOWN, HEAD = 4096, struct.Struct("dI")  # bytes: fraction, below 0 for none, and length of the words
 
@@ -41,13 +43,39 @@ def stream() -> int:
         return -1
 
 
+class TimeLeft:
+    """How long work will still take: by how fast it was in the last third of its time, not from its
+    start. base/time_left.hpp is the same."""
+
+    def __init__(self):
+        self.seen: deque[tuple[float, float]] = deque()
+
+    def show(self, seconds: float, fraction: float) -> None:
+        if len(self.seen) >= 2 and seconds - self.seen[-2][0] < seconds / POINTS:
+            self.seen.pop()
+        self.seen.append((seconds, fraction))
+        while len(self.seen) > 2 and self.seen[1][0] <= (1.0 - LATE) * seconds:
+            self.seen.popleft()
+
+    def left(self, seconds: float) -> float | None:
+        """None as long as too little of the work is done."""
+        if not self.seen or self.seen[-1][1] < LEAST:
+            return None
+        begin, since = self.seen[0] if len(self.seen) > 1 else (0.0, 0.0)
+        done = self.seen[-1][1]
+        speed = (done - since) / (seconds - begin) if done > since and seconds > begin else done / seconds
+        return (1.0 - done) / speed
+
+
 class Progress:
-    """`what`: the work, as a user calls it. A thread draws what was shown last, as some steps take
+    """`what`: the work, as a user calls it. staged: its fractions are those of stages, of which nobody
+    knows how long they take; then what has passed is told in the place of what is left. A thread draws what was shown last, as some steps take
     long. What a copy of the process shows (base/apart.py) is drawn too: it stands in shared memory."""
 
-    def __init__(self, what: str):
+    def __init__(self, what: str, staged: bool = False):
         self.what, self.process, self.shown = what, os.getpid(), mmap.mmap(-1, SHOWN)
         self._keep(None, "")
+        self.staged, self.left = staged, TimeLeft()
         self.stream = stream()
         self.terminal = self.stream >= 0 and os.isatty(self.stream)
         self.every = TERMINAL_S if self.terminal else LINES_S
@@ -93,7 +121,11 @@ class Progress:
         if done < 0.0:
             return f"{text}, {clock(passed)}"
         text = f"{text}, {100 * done:.0f} %"
-        return text if done < LEAST else f"{text}, about {clock(passed * (1 - done) / done)} left"
+        if self.staged:
+            return f"{text}, {clock(passed)}"
+        self.left.show(passed, done)
+        left = self.left.left(passed)
+        return text if left is None else f"{text}, about {clock(left)} left"
 
     def _tick(self) -> None:
         while not self.over.wait(max(self.next - time.monotonic(), 0.05)):

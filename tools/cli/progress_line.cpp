@@ -12,7 +12,6 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 constexpr Seconds silent{1.0}, on_terminal{0.2}, of_lines{5.0};
-constexpr double least = 0.02; // a smaller fraction tells nothing of the time left
 
 /// Past the stream stderr, which keeps such bytes from terminals. What is not taken is dropped.
 void write_now(const std::string& text) {
@@ -38,27 +37,31 @@ ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {
 }
 
 void ProgressLine::show(std::string_view words, std::optional<double> fraction) {
-  if (!is_due()) return;
   const double passed = Seconds(Clock::now() - begin_).count();
+  if (fraction) left_.show(passed, *fraction);
+  if (!is_due()) return;
   if (!fraction) return draw(fmt::format("{}, {}", words, clock_text(passed)));
   std::string text = fmt::format("{}, {:.0f} %", words, 100.0 * *fraction);
-  if (*fraction >= least)
-    text += fmt::format(", about {} left", clock_text(passed * (1.0 - *fraction) / *fraction));
+  if (const auto left = left_.left(passed))
+    text += fmt::format(", about {} left", clock_text(*left));
   draw(text);
 }
 
 void ProgressLine::show(const Progress& p, std::string_view words) {
   if (!is_due()) return;
-  draw(fmt::format("{}{}{:3.0f} %, {} left, stroke {:.2f} mm, step {}, kinetic/shear {:.3f}, "
-                   "balance {:+.1e}",
-                   words, words.empty() ? "" : ": ", 100.0 * p.fraction, clock_text(p.remaining_s),
-                   p.stroke_mm, p.step, p.kinetic_over_shear, p.balance_error));
+  const std::string left =
+      p.remaining_s > 0.0 ? fmt::format(", {} left", clock_text(p.remaining_s)) : "";
+  draw(fmt::format("{}{}{:3.0f} %{}, stroke {:.2f} mm, step {}, kinetic/shear {:.3f}, balance "
+                   "{:+.1e}",
+                   words, words.empty() ? "" : ": ", 100.0 * p.fraction, left, p.stroke_mm, p.step,
+                   p.kinetic_over_shear, p.balance_error));
 }
 
 void ProgressLine::end() {
   if (drawn_ && terminal_) write_now("\r\033[K");
   drawn_ = false;
   begin_ = Clock::now();
+  left_ = {};
   next_ = begin_ + std::chrono::duration_cast<Clock::duration>(terminal_ ? silent : of_lines);
 }
 

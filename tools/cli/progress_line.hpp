@@ -3,6 +3,7 @@
 // Python programs.
 #pragma once
 
+#include "base/time_left.hpp"
 #include "core/run/run.hpp"
 
 #include <chrono>
@@ -37,6 +38,7 @@ private:
 
   bool terminal_, drawn_ = false;
   Clock::time_point begin_ = Clock::now(), next_;
+  TimeLeft left_;
 };
 
 } // namespace plyform
