@@ -9,6 +9,7 @@
 #include "core/results/verification.hpp"
 #include "core/results/wrinkles.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -140,8 +141,18 @@ struct Summary {
   /// keys of the case with their values (core/input/keys/given_values.hpp); may be empty: not known
   std::vector<std::pair<std::string, std::string>> given;
   bool flies = false; ///< a ply at the end: core/run/ply_motion.hpp
+  /// What not to trust, a sentence each, as WorkReport::missing begins; any makes a run that ended
+  /// doubtful.
+  std::vector<std::string> doubts = {};
   std::vector<PushedTool> pushed = {};
 };
+
+/// What would make the result better, a sentence each: what follows the doubts.
+inline std::vector<std::string> advice_of(const Summary& summary) {
+  const std::vector<std::string>& all = summary.work.missing;
+  return {all.begin() + static_cast<std::ptrdiff_t>(std::min(summary.doubts.size(), all.size())),
+          all.end()};
+}
 
 /// Whether a run with this status reached its end time.
 inline bool ended(std::string_view status) {

@@ -359,6 +359,8 @@ std::string summary_json(const Frame& last, const Summary& summary) {
               {"assumed", summary.assumed},
               {"could_be_left_out", summary.work.could_be_left_out},
               {"missing", summary.work.missing},
+              {"doubts", summary.doubts},
+              {"advice", advice_of(summary)},
               {"case", case_object(summary)}};
   if (!summary.verification.figures.empty())
     all["verification"] = verification_object(summary.verification);

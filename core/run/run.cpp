@@ -120,6 +120,7 @@ Progress progress_of(const Scene& s, const Energies& e, double elapsed, double r
 /// Inserts reasons to doubt a result at the begin of WorkReport::missing, and changes the status
 /// "done" to "doubtful".
 void doubt_if(const std::vector<std::string>& reasons, Summary& sum) {
+  sum.doubts = reasons;
   sum.work.missing.insert(sum.work.missing.begin(), reasons.begin(), reasons.end());
   if (reasons.empty() || sum.status != "done") return;
   sum.status = "doubtful";
@@ -196,7 +197,7 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
   sum.contact = audit(s, good, pool);
   const std::vector<ToolCut> cuts = cuts_between_nodes(s, pool);
   sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
-  sum.work = report_work(s, result.last, sum.contact);
+  sum.work = report_work(s, result.last);
   sum.plies = report_plies(s, result.last);
   sum.assumed = assumptions(s.data);
   const auto stop_if = [&sum](bool wrong, const std::string& message) {
@@ -218,6 +219,10 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
     reasons.push_back(std::move(reason));
   for (std::string& reason : doubts_of_sliding(sum.work.pairs))
     reasons.push_back(std::move(reason));
+  if (sum.contact.intersections_within_plies > 0 && !any_self_contact(s))
+    reasons.push_back(fmt::format("do not trust folds: {} pairs of triangles of one ply cross, as "
+                                  "nothing keeps them apart; contact.self = \"on\" does",
+                                  sum.contact.intersections_within_plies));
   doubt_if(reasons, sum);
   for (std::string& moves : moulds_under_way(sum))
     sum.work.missing.push_back(std::move(moves));

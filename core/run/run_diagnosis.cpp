@@ -144,7 +144,7 @@ double largest_softening(const Scene& s, const std::string& name) {
   return largest;
 }
 
-std::vector<std::string> too_little(const Scene& s, const Frame& last, const ContactReport& c) {
+std::vector<std::string> too_little(const Scene& s, const Frame& last) {
   const Energies& e = last.energy;
   std::vector<std::string> found;
   // depth and limit, mm
@@ -169,16 +169,12 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
     found.push_back(fmt::format("tensile stiffness: yarns of {} are {:.2g} % longer, softened by "
                                 "{:g}; a smaller solver.fibre_softening makes it less",
                                 ply, 100.0 * strain, by));
-  if (c.intersections_within_plies > 0 && !any_self_contact(s))
-    found.push_back(fmt::format("self-contact: {} pairs of triangles of one ply cross; "
-                                "contact.self = \"on\" keeps folds apart",
-                                c.intersections_within_plies));
   return found;
 }
 
 } // namespace
 
-WorkReport report_work(const Scene& s, const Frame& last, const ContactReport& contact) {
+WorkReport report_work(const Scene& s, const Frame& last) {
   WorkReport w;
   w.searches = s.searches;
   w.pairs = pairs_of(s);
@@ -191,7 +187,7 @@ WorkReport report_work(const Scene& s, const Frame& last, const ContactReport& c
       pair.time_share /= all;
   }
   w.could_be_left_out = too_much(s, last.energy, w);
-  w.missing = too_little(s, last, contact);
+  w.missing = too_little(s, last);
   return w;
 }
 

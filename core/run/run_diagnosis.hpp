@@ -8,8 +8,7 @@
 
 namespace plyform {
 
-/// The report on a scene in its last state and its last frame. contact: with the exact count of
-/// intersections.
-WorkReport report_work(const Scene& scene, const Frame& last, const ContactReport& contact);
+/// The report on a scene in its last state and its last frame.
+WorkReport report_work(const Scene& scene, const Frame& last);
 
 } // namespace plyform

@@ -110,7 +110,8 @@ def summary(plies=("lower", "upper"), tools=("punch",), grips=("grip",)) -> dict
             "contact": {"max_tool_penetration_mm": 0.01, "max_ply_penetration_mm": 0.01,
                         "intersections_between_plies": 0, "intersections_within_plies": 0},
             "pairs": [{"a": plies[0], "b": tools[0], "deepest_mm": 0.1}],
-            "assumed": ["something"], "could_be_left_out": [], "missing": ["do not trust it"]}
+            "assumed": ["something"], "could_be_left_out": [], "missing": ["do not trust it", "a finer mesh"],
+            "doubts": ["do not trust it"], "advice": ["a finer mesh"]}
 
 
 HISTORY = """time_s,stroke_mm,punch_force_N,grip_force_N,fibre_mJ,shear_mJ,kinetic_mJ

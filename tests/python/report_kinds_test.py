@@ -120,6 +120,7 @@ def check_endings(browser, folder):
     assert "Not finished: the run goes on, or was killed" in words and "no summary.json" in words
     doubtful = changed(frame, folder / "doubtful", status="doubtful",
                        missing=["do not trust the corners", "friction: none"],
+                       doubts=["do not trust the corners"], advice=["friction: none"],
                        message="do not trust the corners",
                        of_plies={"locking_angle_deg": 40, "area_share_beyond_locking_angle": 0.5})
     words, _ = shown(browser, doubtful)

@@ -55,7 +55,7 @@ SUMMARY = {
                                         "intersections_between_plies",
                                         "intersections_within_plies")},
     "pairs": ({"a": TEXT, "b": TEXT},), "assumed": (TEXT,), "could_be_left_out": (TEXT,),
-    "missing": (TEXT,), "case": {...: TEXT}, "verification": {"figures": (FIGURE,)}}
+    "missing": (TEXT,), "doubts": (TEXT,), "advice": (TEXT,), "case": {...: TEXT}, "verification": {"figures": (FIGURE,)}}
 STATUSES = ("done", "doubtful", "stopped", "interrupted")
 NEEDED = ("status", "plies", "tools", "energy", "contact")
 
@@ -101,6 +101,16 @@ def check_bodies(path: Path, summary: dict) -> None:
             checked(body["name"], what, path, SEPARATORS)
         if len({body["name"] for body in bodies}) < len(bodies):
             raise broken(path, f"{kind} has a name twice")
+
+
+def doubts_and_advice(summary: dict) -> tuple[list, list]:
+    """What not to trust, and what would make the result better, a sentence each; of a run of before they
+    had lists of their own they are told apart by its message."""
+    if "doubts" in summary:
+        return summary["doubts"], summary.get("advice", [])
+    missing, message = summary.get("missing", []), summary.get("message", "")
+    doubts = [text for text in missing if text in message]
+    return doubts, [text for text in missing if text not in doubts]
 
 
 def without_unknown_forces(summary: dict) -> dict:

@@ -52,8 +52,6 @@ void print_work(const WorkReport& w, long steps) {
   if (!apart.empty()) fmt::print("  never touched: {}\n", joined(apart));
   for (const std::string& what : w.could_be_left_out)
     fmt::print("  could be left out: {}\n", what);
-  for (const std::string& what : w.missing)
-    fmt::print("  missing: {}\n", what);
 }
 
 /// Prints the fibre volume of a ply, and how the stack fills a closed mould.
@@ -171,6 +169,10 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   for (const std::string& line : r.summary.assumed)
     fmt::print("  assumed: {}\n", line);
   print_work(r.summary.work, r.summary.steps);
+  for (const std::string& what : r.summary.doubts)
+    fmt::print("  doubt: {}\n", what);
+  for (const std::string& what : advice_of(r.summary))
+    fmt::print("  better: {}\n", what);
   fmt::print("results are in {}\n", folder.string());
 }
 

@@ -5,6 +5,7 @@ wrinkle, how much force; what not to trust. Texts are HTML, numbers in <data> fo
 from dataclasses import dataclass
 
 import numpy as np
+from base.summary_file import doubts_and_advice
 from markupsafe import Markup
 
 from .reading_run import PlyStates, Run
@@ -314,6 +315,4 @@ def doubts(run: Run) -> list[str]:
     """What not to trust, a sentence each."""
     if not run.summary:
         return ["There is no summary.json: errors, wrinkles and pressed yarns were not looked at."]
-    missing = run.summary.get("missing", [])
-    why = [text for text in missing if text in run.summary["message"]]
-    return [sentence(text) for text in why or [run.summary["message"]]]
+    return [sentence(text) for text in doubts_and_advice(run.summary)[0] or [run.summary["message"]]]

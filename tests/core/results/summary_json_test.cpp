@@ -113,6 +113,8 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
     "bending: small"
   ],
   "missing": [],
+  "doubts": [],
+  "advice": [],
   "case": {"ply.p.angle": "45"}
 })")); // rms: sqrt((99 * 10^2 + 1 * 20^2) / 100) = sqrt(103)
 }
@@ -274,6 +276,7 @@ TEST(SummaryJson, TextIsEscapedAndAlwaysUtf8) {
   frame.plies[0].name = "\xe9";
   const Json json = read_back(frame, summary);
   EXPECT_EQ(json.at("missing"), Json::array({"\ufffd"}));
+  EXPECT_EQ(json.at("advice"), Json::array({"\ufffd"}));
   EXPECT_EQ(json.at("plies").at(0).at("name"), "\ufffd");
 }
 

@@ -143,7 +143,9 @@ TEST(Doubtful, IsARunThatPressesWovenYarnsByMoreThanFivePercent) {
   EXPECT_NEAR(s.plies[0].pressed->excess_mm, 12.0, 0.5);
   EXPECT_NE(s.message.find("do not trust"), std::string::npos) << s.message;
   EXPECT_NE(s.message.find("compression_stiffness"), std::string::npos) << s.message;
-  ASSERT_FALSE(s.work.missing.empty());
+  ASSERT_FALSE(s.doubts.empty());
+  EXPECT_EQ(s.doubts.front(), s.work.missing.front());
+  EXPECT_EQ(s.doubts.size() + advice_of(s).size(), s.work.missing.size());
   EXPECT_EQ(s.message.find(s.work.missing.front()), 0u)
       << s.message; // limp and fast, it also flies
 }
@@ -156,6 +158,8 @@ TEST(Doubtful, IsNotARunThatPressesThemByLess) {
       data.fabrics[0].families[1].tension.compression = 100.0; // N
   const RunResult run = run_case(data, 1, {});
   EXPECT_EQ(run.summary.status, "done") << run.summary.message;
+  EXPECT_TRUE(run.summary.doubts.empty());
+  EXPECT_EQ(advice_of(run.summary), run.summary.work.missing);
   EXPECT_LT(run.summary.plies.at(0).pressed->excess_mm, 1.0);
   EXPECT_EQ(run.summary.plies.at(0).pressed->share_above_5, 0.0);
 }

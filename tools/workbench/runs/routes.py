@@ -12,7 +12,7 @@ from pathlib import Path
 from fastapi import APIRouter, Body, Response
 
 from base.ending import Trouble, one_line
-from base.summary_file import read_summary
+from base.summary_file import doubts_and_advice, read_summary
 
 from ..cases.paths import paths_inside
 from ..processes.records import LIVE
@@ -232,7 +232,8 @@ def messages_of(studio: Studio, run: dict) -> dict:
             said = {"message": one_line(problem)}
     command = ["plyform", *record["command"][1:]] if record else \
         ["plyform", "run", as_argument(run["case"]) or "CASE", "-o", run["folder"]]
-    return {"message": run["message"], "missing": said.get("missing", []), "assumed": said.get("assumed", []),
+    doubts, advice = doubts_and_advice(said)
+    return {"message": run["message"], "doubts": doubts, "advice": advice, "assumed": said.get("assumed", []),
             "could_be_left_out": said.get("could_be_left_out", []), "plies": said.get("plies", []),
             "tools": said.get("tools", []), "energy": said.get("energy", {}),
             "log": studio.processes.log(record["id"]) if record else "",

@@ -6,8 +6,8 @@ import { RunPicture } from "workbench/runs/picture.js";
 import { fractionOf, LIVE, progressWords, stateWord } from "workbench/runs/words.js";
 import { ask, send } from "workbench/page/server.js";
 
-const LISTS = [["missing", "What is doubtful or missing"], ["could_be_left_out", "What could be left out"],
-  ["assumed", "What is assumed"]];
+const LISTS = [["doubts", "What not to trust"], ["advice", "What would make it better"],
+  ["could_be_left_out", "What could be left out"], ["assumed", "What is assumed"]];
 
 const list = (title, lines) => (lines.length ? element("section", {}, element("h3", { textContent: title }),
   element("ul", {}, ...lines.map((textContent) => element("li", { textContent })))) : null);
@@ -110,9 +110,8 @@ export class RunShown {
     if (other) this.said.replaceChildren();
     const said = await ask("runs/messages", { folder: run.folder });
     if (!this.run || this.run.folder !== run.folder) return; // another was chosen meanwhile
-    const others = said.missing.filter((line) => !said.message.includes(line));
-    this.said.replaceChildren(...LISTS.map(([key, title]) => list(title, key === "missing" ? others : said[key]))
-      .filter(Boolean));
+    const unsaid = (line) => !said.message.includes(line); // stands above the lists
+    this.said.replaceChildren(...LISTS.map(([key, title]) => list(title, said[key].filter(unsaid))).filter(Boolean));
     this.command.textContent = said.command;
     this.cwd.textContent = said.cwd;
     this.print(said.log);
