@@ -15,6 +15,7 @@ install(EXPORT plyform FILE plyformTargets.cmake NAMESPACE plyform:: DESTINATION
 set(public_headers
   base/diagnostics.hpp
   base/geometry.hpp
+  base/units.hpp
   base/version.hpp
   contact/face_across.hpp
   contact/forces/friction_law.hpp
@@ -24,6 +25,7 @@ set(public_headers
   contact/simd/contact_points.hpp
   contact/surface_hint.hpp
   core/accuracy/cost_parameters.hpp core/accuracy/error_model.hpp core/accuracy/error_numbers.hpp
+  core/identify/column_meaning.hpp
   core/identify/corrections.hpp
   core/identify/curve_file.hpp
   core/identify/curve_table.hpp
@@ -33,7 +35,6 @@ set(public_headers
   core/identify/linear_law.hpp
   core/identify/shear_tests.hpp
   core/identify/statistics.hpp
-  core/identify/units.hpp
   core/input/case_file.hpp
   core/input/case_sketch.hpp
   core/input/checks/source_location.hpp

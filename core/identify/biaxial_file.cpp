@@ -79,7 +79,7 @@ bool pulls(const Curve& curve, double largest, Diagnostics& diagnostics) {
   const auto least = std::min_element(curve.y.begin(), curve.y.end());
   if (*least >= -noise_share * largest) return true;
   const auto row = static_cast<std::size_t>(least - curve.y.begin());
-  diagnostics.error(place_of(curve, row), curve.y_name, fmt::format("{:g}", *least),
+  diagnostics.error(place_of(curve, row), curve.y_name, written_y(curve, row),
                     "must not be below 0 by more than 2 % of the largest load",
                     "set the load cell to 0 without a specimen, or turn the sign of the column");
   return false;

@@ -61,22 +61,24 @@ double overhang_where(const Measure& measure, double value) {
 std::optional<double> length_of(const Curve& curve, std::size_t row, CantileverReading reading,
                                 Diagnostics& diagnostics) {
   const double overhang = curve.x[row], y = curve.y[row];
-  const auto wrong = [&](const std::string& item, double value, const std::string& rule,
+  const auto wrong = [&](const std::string& item, const std::string& value, const std::string& rule,
                          const std::string& remedy) {
-    diagnostics.error(place_of(curve, row), item, fmt::format("{:.4g}", value), rule, remedy);
+    diagnostics.error(place_of(curve, row), item, value, rule, remedy);
     return std::nullopt;
   };
   if (!(overhang > 0.0))
-    return wrong(curve.x_name, overhang, "the overhang must be greater than 0",
+    return wrong(curve.x_name, written_x(curve, row), "the overhang must be greater than 0",
                  "give the length that hangs over the edge, in mm");
   if (reading == CantileverReading::chord_angle) {
     if (y > 0.0 && y <= steepest) return overhang / overhang_at_chord(y);
-    return wrong(curve.y_name, y / degree, "the angle must be above 0 and at most 85 degrees",
+    return wrong(curve.y_name, written_y(curve, row),
+                 "the angle must be above 0 and at most 85 degrees",
                  "give the angle of the line from the edge to the tip below the horizontal; of "
                  "angles near 90 degrees nothing follows, let less hang over");
   }
   if (y > 0.0 && y <= 0.95 * overhang) return overhang / overhang_at_sag(y / overhang);
-  return wrong(curve.y_name, y, "the deflection must be above 0 and at most 0.95 of the overhang",
+  return wrong(curve.y_name, written_y(curve, row),
+               "the deflection must be above 0 and at most 0.95 of the overhang",
                "give how much lower the tip is than the edge, in mm; let less hang over");
 }
 

@@ -21,8 +21,10 @@ std::string description(const CurveTable& table, const std::vector<std::size_t>&
   std::vector<std::string> texts;
   for (const std::size_t i : columns) {
     const ColumnMeaning meaning = table.meaning(i);
+    const std::string unit =
+        meaning.unknown_unit.empty() ? meaning.unit : meaning.unknown_unit + ", which is not known";
     texts.push_back(fmt::format("{} ({}{}{})", table.name_of(i), quantity_name(meaning.quantity),
-                                meaning.unit.empty() ? "" : ", ", meaning.unit));
+                                unit.empty() ? "" : ", ", unit));
   }
   return joined(texts);
 }
@@ -111,28 +113,69 @@ bool is_refused(const ColumnRequest& request, Quantity quantity, const Place& at
   return true;
 }
 
+/// Reports an error and returns true if the words of the header say that the column is another
+/// measure than the test takes.
+bool is_other_measure(const CurveTable& table, const ColumnRequest& request,
+                      const ChosenColumn& chosen, Diagnostics& diagnostics) {
+  const std::string name = table.name_of(chosen.index);
+  const auto other = other_measure(name, chosen.quantity, request.wanted);
+  if (!other) return false;
+  diagnostics.error({table.file, table.header_line, 1}, name, "",
+                    fmt::format("is {} by its name, and that is not the {} that the test takes",
+                                other->is, request.word),
+                    other->remedy);
+  return true;
+}
+
+/// "give one of mm, cm ..."; of a name that stands for several units why.
+std::string unit_remedy(const ColumnRequest& request, const std::string& unit) {
+  std::string known = units_of(request.quantity);
+  if (request.also) known += ", " + units_of(*request.also);
+  const std::string doubt = ambiguous_unit(unit);
+  return fmt::format("{}give one of {}", doubt.empty() ? "" : doubt + "; ", known);
+}
+
+/// Reports a unit in the header that is not known.
+void report_unknown_unit(const CurveTable& table, const ColumnRequest& request, std::size_t column,
+                         Diagnostics& diagnostics) {
+  const std::string& unit = table.meaning(column).unknown_unit;
+  diagnostics.error({table.file, table.header_line, 1}, table.name_of(column), unit,
+                    fmt::format("is no unit of {} that is known", a_quantity(request.quantity)),
+                    unit_remedy(request, unit) +
+                        (request.only.empty()
+                             ? fmt::format(", in the header or with {}; so too if {} is no unit",
+                                           request.unit_option, unit)
+                             : ", in the header"));
+}
+
 /// The column with its factor by the unit that the user gives, or by its header; reports an error
-/// and returns nothing if that is of another quantity.
-std::optional<ChosenColumn> with_factor(const CurveTable& table, const ColumnRequest& request,
-                                        std::size_t column, Diagnostics& diagnostics) {
+/// and returns nothing if that is of another quantity, or not known.
+std::optional<ChosenColumn> factor_of(const CurveTable& table, const ColumnRequest& request,
+                                      std::size_t column, Diagnostics& diagnostics) {
   const ColumnMeaning meaning = table.meaning(column);
   if (!request.chosen.unit.empty()) {
     const auto unit = find_unit(request.chosen.unit);
     if (unit && fits(request, unit->quantity))
-      return ChosenColumn{column, unit->factor, unit->quantity};
+      return ChosenColumn{column, unit->factor, unit->quantity, request.chosen.unit};
     const Place option{request.unit_option, 1, 1};
     const std::string item = item_of(request.unit_option), &given = request.chosen.unit;
     if (!unit || !is_refused(request, unit->quantity, option, item, given, diagnostics))
       diagnostics.error(option, item, given,
                         fmt::format("is no unit of {}", a_quantity(request.quantity)),
-                        "give one of " + units_of(request.quantity) +
-                            (request.also ? ", " + units_of(*request.also) : ""));
+                        unit_remedy(request, given));
     return std::nullopt;
   }
-  if (fits(request, meaning.quantity))
-    return ChosenColumn{column, meaning.factor, meaning.quantity};
+  const bool fitting = fits(request, meaning.quantity);
+  if (!meaning.unknown_unit.empty() && (fitting || meaning.quantity == Quantity::unknown)) {
+    report_unknown_unit(table, request, column, diagnostics);
+    return std::nullopt;
+  }
+  if (fitting)
+    return ChosenColumn{column, meaning.factor, meaning.quantity,
+                        meaning.unit.empty() ? usual_unit(meaning.quantity) : meaning.unit};
   if (meaning.quantity == Quantity::unknown)
-    return ChosenColumn{column, usual_factor(request.quantity), request.quantity};
+    return ChosenColumn{column, usual_factor(request.quantity), request.quantity,
+                        usual_unit(request.quantity)};
   if (is_refused(request, meaning.quantity, {table.file, 1, 1}, table.name_of(column), meaning.unit,
                  diagnostics))
     return std::nullopt;
@@ -149,11 +192,30 @@ std::optional<ChosenColumn> with_factor(const CurveTable& table, const ColumnReq
   return std::nullopt;
 }
 
+/// Likewise, unless the column is another measure by its name.
+std::optional<ChosenColumn> with_factor(const CurveTable& table, const ColumnRequest& request,
+                                        std::size_t column, Diagnostics& diagnostics) {
+  auto chosen = factor_of(table, request, column, diagnostics);
+  if (chosen && is_other_measure(table, request, *chosen, diagnostics)) return std::nullopt;
+  return chosen;
+}
+
+/// Of several columns of a quantity those that are the measure which the test takes, if any is.
+std::vector<std::size_t> of_that_measure(const CurveTable& table, const ColumnRequest& request,
+                                         std::vector<std::size_t> columns) {
+  std::vector<std::size_t> fitting;
+  for (const std::size_t i : columns)
+    if (!other_measure(table.name_of(i), table.meaning(i).quantity, request.wanted))
+      fitting.push_back(i);
+  return fitting.empty() ? columns : fitting;
+}
+
 /// The one column of the quantity; nothing if there is none, or an error if there are several.
 std::optional<std::size_t> column_by_header(const CurveTable& table, const ColumnRequest& request,
                                             Diagnostics& diagnostics) {
   std::vector<std::size_t> all = of_quantity(table, request.quantity, request.only);
   if (all.empty() && request.also) all = of_quantity(table, *request.also, request.only);
+  all = of_that_measure(table, request, std::move(all));
   if (all.size() == 1) return all.front();
   if (all.empty()) return std::nullopt;
   std::vector<std::size_t> preferred;
@@ -234,6 +296,16 @@ bool fill_from_left(const CurveTable& table, const std::vector<ColumnRequest>& r
   return true;
 }
 
+/// Whether just one column may be an optional one; nor is it read where the column is another
+/// measure and what it may stand for is there.
+bool is_clear(const CurveTable& table, const ColumnRequest& request, const ColumnRequest& instead) {
+  const auto found =
+      of_that_measure(table, request, of_quantity(table, request.quantity, request.only));
+  if (found.size() != 1) return false;
+  return of_quantity(table, instead.quantity, instead.only).empty() ||
+         !other_measure(table.name_of(found.front()), request.quantity, request.wanted);
+}
+
 /// Reports columns that two requests have in common.
 bool all_different(const CurveTable& table, const std::vector<ColumnRequest>& requests,
                    const Chosen& chosen, Diagnostics& diagnostics) {
@@ -261,9 +333,7 @@ std::optional<Chosen> choose_columns(const CurveTable& table,
   for (std::size_t n = 0; n < requests.size(); ++n) {
     const ColumnRequest& request = requests[n];
     const bool named = !request.chosen.column.empty();
-    if (!named && request.optional &&
-        of_quantity(table, request.quantity, request.only).size() != 1)
-      continue;
+    if (!named && request.optional && !is_clear(table, request, requests.front())) continue;
     const std::size_t before = diagnostics.errors.size();
     const auto column = named ? named_column(table, request, diagnostics)
                               : column_by_header(table, request, diagnostics);

@@ -3,9 +3,18 @@
 // Decimal point, not comma. core/identify/curve_table.hpp says how files and columns are read.
 #pragma once
 
+#include "base/geometry.hpp"
 #include "core/identify/curve_table.hpp"
 
 namespace plyform {
+
+/// Numbers of a column as the file has them, for messages.
+struct WrittenColumn {
+  std::vector<double> number = {}; ///< of each row; empty of curves that are from no file
+  std::string unit = {};           ///< of them; empty of a strain without one
+  /// To the program's units; NaN of numbers that are made of others.
+  double factor = 1.0;
+};
 
 struct Curve {
   std::string file;
@@ -17,6 +26,7 @@ struct Curve {
   std::string angle_name = {};
   Quantity y_is = Quantity::force;  ///< or force_per_length, stress
   Quantity x_is = Quantity::length; ///< or strain, stretch
+  WrittenColumn x_written = {}, y_written = {}, angle_written = {{}, "", degree};
   std::size_t size() const { return x.size(); }
 };
 
@@ -30,8 +40,9 @@ struct CurveColumns {
   std::string y_option = "--y-column"; ///< that names y's
   std::string x_hint = {};             ///< if x is of another quantity
   std::optional<Quantity> x_also = {}, y_also = {};
-  std::string no_per_length = {}; ///< as in ColumnRequest
-  std::string only = {};          ///< of x and y, as in ColumnRequest
+  std::string no_per_length = {};           ///< as in ColumnRequest
+  std::string only = {};                    ///< of x and y, as in ColumnRequest
+  std::string x_wanted = {}, y_wanted = {}; ///< of other_measure
   /// A column of angles is read if there is one; x may miss if it is chosen, or if all else is
   /// found.
   bool with_angle = false;
@@ -42,6 +53,15 @@ struct CurveColumns {
 /// returned then. Never throws because of the content of the file.
 std::optional<Curve> read_curve(const std::filesystem::path& file, const CurveColumns& columns,
                                 Diagnostics& diagnostics);
+
+/// The number of a row as its file has it, with the unit that it is in unless `name` has it: "30"
+/// of "extension (in)", "30 in" of "d"; and what it has become since, if something has been taken
+/// off: "5 (-2 without what is taken off)". `now`: in the program's units.
+std::string written(const WrittenColumn& column, const std::string& name, std::size_t row,
+                    double now);
+std::string written_x(const Curve& curve, std::size_t row);
+std::string written_y(const Curve& curve, std::size_t row);
+std::string written_angle(const Curve& curve, std::size_t row);
 
 /// Checks the curve of a test with monotonic loading; reports an error and returns false unless
 /// - x increases; where it decreases by at most `back_share` of its span the rows are sorted, with

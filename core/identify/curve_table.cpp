@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -26,7 +27,8 @@ int characters(std::string_view text) {
 /// The fields of a line. A field in double quotes may hold the separator; "" in it is one quote.
 std::vector<CurveField> split(std::string_view line, char separator) {
   std::vector<CurveField> fields;
-  std::size_t at = 0;
+  std::size_t at = 0, counted = 0;
+  int column = 1; // of the character at `counted`
   while (true) {
     const std::size_t start = at;
     std::string text;
@@ -39,8 +41,12 @@ std::vector<CurveField> split(std::string_view line, char separator) {
       else
         quoted = !quoted;
     }
-    const std::size_t first = std::min(line.find_first_not_of(' ', start), at);
-    fields.push_back({trimmed(text), characters(line.substr(0, first)) + 1});
+    std::size_t first = start; // without blanks before it
+    while (first < at && line[first] == ' ')
+      ++first;
+    column += characters(line.substr(counted, first - counted));
+    counted = first;
+    fields.push_back({trimmed(text), column});
     if (at >= line.size()) return fields;
     ++at;
   }
@@ -82,6 +88,21 @@ bool is_header(const CurveRow& row) {
   });
 }
 
+/// Whether a row below the names has their units: a unit that is known or stands in brackets, or
+/// nothing but single words that may be units.
+bool is_row_of_units(const CurveRow& row) {
+  bool all = true;
+  for (const CurveField& field : row.fields) {
+    if (field.text.empty()) continue;
+    const bool may_be = may_be_unit(field.text);
+    if (may_be &&
+        (find_unit(field.text) || !std::isalpha(static_cast<unsigned char>(field.text[0]))))
+      return true;
+    all = all && may_be;
+  }
+  return all;
+}
+
 /// Names and units from the header rows, which are removed.
 void take_header(CurveTable& table) {
   std::size_t count = 0;
@@ -96,10 +117,12 @@ void take_header(CurveTable& table) {
       ++names;
     if (table.rows[names].fields.size() != width) names = 0;
   }
+  table.header_line = table.rows[names].line;
   const std::vector<CurveField>& fields = table.rows[names].fields;
+  const bool units = names + 1 < count && is_row_of_units(table.rows[names + 1]);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     std::string below;
-    if (names + 1 < count && i < table.rows[names + 1].fields.size())
+    if (units && i < table.rows[names + 1].fields.size())
       below = table.rows[names + 1].fields[i].text;
     table.names.push_back(fields[i].text);
     table.meanings.push_back(meaning_of(fields[i].text, below));

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "base/diagnostics.hpp"
-#include "core/identify/units.hpp"
+#include "core/identify/column_meaning.hpp"
 
 #include <array>
 #include <filesystem>
@@ -33,6 +33,7 @@ struct CurveTable {
   std::vector<CurveRow> rows;                 ///< of numbers
   std::vector<std::string> names;             ///< of the header; empty without one
   std::vector<ColumnMeaning> meanings;        ///< of each name
+  int header_line = 1;                        ///< of the names, from 1
   std::size_t width() const;                  ///< columns of the first row of numbers
   std::string name_of(std::size_t i) const;   ///< else "column 3"
   ColumnMeaning meaning(std::size_t i) const; ///< unknown without a header
@@ -62,12 +63,14 @@ struct ColumnRequest {
   std::optional<Quantity> also = {};     ///< taken where no column is of `quantity`
   std::string no_per_length = {};        ///< why a force per length does not do
   std::string only = {};                 ///< words of which a name must have one; empty: any name
+  std::string wanted = {};               ///< of other_measure
 };
 
 struct ChosenColumn {
   std::size_t index; ///< from 0
   double factor;     ///< to mm, N, rad, 1, N/mm, N/mm^2
   Quantity quantity; ///< of the request, or its `also`
+  std::string unit;  ///< of the file's numbers; empty of a strain without one
 };
 
 /// The column of each request; none for an optional one that is missing. By the user's choice; else

@@ -53,7 +53,8 @@ struct RubberRows {
 bool take_stretch(Curve& curve, Diagnostics& diagnostics) {
   if (curve.x_is != Quantity::stretch) return true;
   if (!curve.x.empty() && curve.x.front() < 0.5) {
-    diagnostics.error(place_of(curve), curve.x_name, fmt::format("{:g}", curve.x.front()),
+    diagnostics.error(place_of(curve), curve.x_name,
+                      written(curve.x_written, curve.x_name, 0, curve.x.front()),
                       "a stretch is 1 where nothing pulls",
                       "give --x-unit % or mm/mm if the "
                       "column is a strain");
@@ -73,7 +74,7 @@ bool stress_rises(const Curve& curve, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < curve.size(); ++i) {
     before = std::max(before, curve.y[i]);
     if (curve.y[i] >= before - 2.0 * noise_share * most) continue;
-    diagnostics.error(place_of(curve, i), curve.y_name, fmt::format("{:g}", curve.y[i]),
+    diagnostics.error(place_of(curve, i), curve.y_name, written_y(curve, i),
                       fmt::format("the stress falls by more than {:g} % of its largest value",
                                   200.0 * noise_share),
                       "take out rows that are no loading, or end the curve with --to before the "
@@ -95,11 +96,11 @@ bool enough(const Curve& curve, const Place& start, Diagnostics& diagnostics) {
     return false;
   }
   if (curve.x.back() <= most_strain) return true;
-  diagnostics.error(place_of(curve, curve.size() - 1), curve.x_name,
-                    fmt::format("{:g}", curve.x.back()),
-                    fmt::format("the strain must be at most {:g}", most_strain),
-                    "give --gauge-length if the column is a displacement in mm, --x-unit % if it "
-                    "is a strain in %");
+  diagnostics.error(
+      place_of(curve, curve.size() - 1), curve.x_name, written_x(curve, curve.size() - 1),
+      fmt::format("is a strain of {:g}, it must be at most {:g}", curve.x.back(), most_strain),
+      "give --gauge-length if the column is a displacement in mm, --x-unit % if it "
+      "is a strain in %");
   return false;
 }
 
@@ -124,6 +125,7 @@ std::optional<RubberRows> rows_of_specimen(RubberCurve given, const RubberSpecim
   const Place start = place_of(c);
   rows.corrected.slip_at /= length;
   std::vector<std::size_t> kept;
+  c.x_written.factor /= length, c.y_written.factor /= area;
   for (std::size_t i = 0; i < c.size(); ++i) {
     c.x[i] /= length, c.y[i] /= area;
     if (c.x[i] >= options.from && c.x[i] <= options.to) kept.push_back(i);

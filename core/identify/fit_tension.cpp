@@ -27,6 +27,9 @@ Curve pooled(const std::vector<TensionSpecimen>& specimens) {
     all.x.insert(all.x.end(), more.x.begin(), more.x.end());
     all.y.insert(all.y.end(), more.y.begin(), more.y.end());
     all.line.insert(all.line.end(), more.line.begin(), more.line.end());
+    for (const auto& [to, from] : {std::pair{&all.x_written.number, &more.x_written.number},
+                                   {&all.y_written.number, &more.y_written.number}})
+      to->insert(to->end(), from->begin(), from->end());
   }
   std::vector<std::size_t> order(all.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

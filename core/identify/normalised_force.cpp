@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 
 namespace plyform {
@@ -19,6 +20,8 @@ double load_of_normalised(double normalised, double angle, double side) {
 void take_normalised(Curve& curve, double side, bool measured_angle) {
   if (curve.y_is != Quantity::force_per_length) return;
   const ShearTest test = shear_test(FrameSpecimen{side});
+  if (curve.y_written.number.empty()) curve.y_written = {curve.y, "N/mm", 1.0};
+  curve.y_written.factor = std::numeric_limits<double>::quiet_NaN();
   const double end = 0.999999 * locking_extension(test); // rows beyond are refused later
   for (std::size_t i = 0; i < curve.size(); ++i)
     curve.y[i] = load_of_normalised(

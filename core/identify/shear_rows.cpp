@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -33,8 +34,7 @@ Eigen::MatrixXd loads_of(const ShearBasis& basis, const Eigen::VectorXd& extensi
 bool take_measured_angles(Curve& curve, const ShearTest& test, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < curve.size(); ++i) {
     if (!(std::abs(curve.angle[i]) < right_angle)) {
-      diagnostics.error(place_of(curve, i), curve.angle_name,
-                        fmt::format("{:g}", curve.angle[i] / degree),
+      diagnostics.error(place_of(curve, i), curve.angle_name, written_angle(curve, i),
                         "the shear angle must be less than 90 degrees",
                         "give the change of the angle between the yarns; --angle-unit rad if it is "
                         "in radians");
@@ -43,6 +43,11 @@ bool take_measured_angles(Curve& curve, const ShearTest& test, Diagnostics& diag
     curve.x[i] = extension_at(test, curve.angle[i]);
   }
   curve.x_name = curve.angle_name;
+  WrittenColumn& written = curve.x_written = curve.angle_written;
+  if (written.number.empty()) // between those of another file, or of none
+    for (const double angle : curve.angle)
+      written.number.push_back(angle / written.factor);
+  written.factor = std::numeric_limits<double>::quiet_NaN();
   return true;
 }
 
@@ -78,16 +83,17 @@ bool take_range(ShearSpecimen& specimen, const ShearTest& test, const FitOptions
     if (curve.x[i] >= locking) {
       // x increases: the remaining rows are beyond it too
       if (options.to < right_angle) break;
-      diagnostics.error(place_of(curve, i), curve.x_name, fmt::format("{:g}", curve.x[i]),
+      diagnostics.error(place_of(curve, i), curve.x_name, written_x(curve, i),
                         fmt::format("the extension must be less than {:.4g} mm, where the specimen "
                                     "would shear by 90 degrees",
                                     locking),
-                        "check the size of the specimen and that the column is in mm, or leave the "
+                        "check the size of the specimen and the unit of the column, or leave the "
                         "end out with --to");
       return false;
     }
     const double angle = shear_angle(test, curve.x[i]);
     if (angle < options.from || angle > options.to) continue;
+    if (x.empty()) specimen.first = i;
     x.push_back(curve.x[i]);
     y.push_back(curve.y[i]);
     specimen.angle.push_back(angle);
@@ -119,13 +125,17 @@ bool enough(const ShearSpecimen& specimen, const FitOptions& options, Diagnostic
   }
   const double range = angle.back() - angle.front();
   if (range >= least_range) return true;
+  const Curve& curve = specimen.curve;
   diagnostics.error(
-      place_of(specimen.curve), "", "",
+      place_of(curve, curve.size() - 1), curve.x_name, written_x(curve, curve.size() - 1),
       fmt::format("the rows cover {:.2g} degrees of shear angle, there must be at least "
                   "{:g}",
                   range / degree, least_range / degree),
-      "test to a larger extension, widen --from and --to, or check the size of the "
-      "specimen and that the column is in mm");
+      options.measured_angle
+          ? "test to a larger angle, widen --from and --to, or check the unit of the column: "
+            "--angle-unit rad if it is in radians"
+          : "test to a larger extension, widen --from and --to, or check the size of the specimen "
+            "and the unit of the column");
   return false;
 }
 
@@ -142,9 +152,10 @@ void warn_of_start(const ShearSpecimen& specimen, const FitOptions& options,
     diagnostics.warning(
         place_of(specimen.curve),
         fmt::format(
-            "{:.3g} N at an extension of {:.3g} mm, where the theory has next to none: take "
-            "a preload or an offset off with --zero or --toe, or start with --from",
-            load, specimen.rows.x[0]));
+            "{} = {} at {} = {}, where the theory has next to none: take a preload or an offset "
+            "off with --zero or --toe, or start with --from",
+            specimen.curve.y_name, written_y(specimen.curve, specimen.first), specimen.curve.x_name,
+            written_x(specimen.curve, specimen.first)));
 }
 
 /// Finds the corrections asked for, with the law that they are to fit.

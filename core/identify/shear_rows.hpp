@@ -29,6 +29,7 @@ struct ShearSpecimen {
   LoadRows rows;
   std::vector<double> angle; ///< rad, of each row
   Corrected corrected;
+  std::size_t first = 0; ///< row of the curve that is the first of `rows`
 };
 
 /// The rows of all specimens, each specimen with the same weight.

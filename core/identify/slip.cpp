@@ -147,6 +147,7 @@ bool put_angles(Curve& curve, Curve angles, Diagnostics& diagnostics) {
   for (const double at : curve.x)
     curve.angle.push_back(value_within(through, at));
   curve.angle_name = angles.y_name;
+  curve.angle_written = {{}, angles.y_written.unit, angles.y_written.factor};
   return true;
 }
 

@@ -13,6 +13,8 @@ constexpr double much_strain = 0.1, impossible_strain = 0.5;
 /// Converts x and y to strain and tension (N) of one yarn, and keeps only the rows in the range.
 void scale_curve(Curve& curve, const Strip& strip, const FitOptions& options) {
   std::vector<std::size_t> kept;
+  curve.x_written.factor /= strip.gauge_length;
+  curve.y_written.factor /= strip.yarns;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     curve.x[i] /= strip.gauge_length;
     curve.y[i] /= strip.yarns;
@@ -35,10 +37,11 @@ bool enough(const Curve& curve, const Place& start, const std::string& word,
   }
   const double most = curve.x.back();
   if (most >= impossible_strain) {
-    diagnostics.error(place_of(curve, curve.size() - 1), curve.x_name, fmt::format("{:g}", most),
-                      fmt::format("the {} must be less than {:g}", word, impossible_strain),
-                      "give --gauge-length if the column is a displacement in mm, --x-unit % if it "
-                      "is a strain in %");
+    diagnostics.error(
+        place_of(curve, curve.size() - 1), curve.x_name, written_x(curve, curve.size() - 1),
+        fmt::format("is a {} of {:g}, it must be less than {:g}", word, most, impossible_strain),
+        "give --gauge-length if the column is a displacement in mm, --x-unit % if it "
+        "is a strain in %");
     return false;
   }
   if (most > much_strain && word == "strain")
@@ -147,7 +150,7 @@ std::optional<TensionLaw> table_of(const Curve& curve, std::vector<double> knots
   if (const double change = make_rising(tension); change > noise_share * most) {
     diagnostics.error(
         place_of(curve, static_cast<std::size_t>(peak)), curve.y_name,
-        fmt::format("{:g}", curve.y[static_cast<std::size_t>(peak)]),
+        written_y(curve, static_cast<std::size_t>(peak)),
         fmt::format("the tension falls with rising strain, by more than {:g} % of its "
                     "largest value: a yarn that softens is not modelled",
                     100.0 * noise_share),

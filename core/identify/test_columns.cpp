@@ -8,6 +8,7 @@ namespace plyform {
 CurveColumns shear_columns(bool frame) {
   CurveColumns columns;
   columns.with_angle = true;
+  columns.y_wanted = "load of the frame";
   if (frame)
     columns.y_also = Quantity::force_per_length;
   else
@@ -41,7 +42,7 @@ CurveColumns cantilever_columns(CantileverReading reading) {
   const bool angle = reading == CantileverReading::chord_angle;
   CurveColumns columns;
   columns.x_word = "overhang";
-  columns.x_preferred = "overhang";
+  columns.x_preferred = columns.x_wanted = "overhang";
   columns.y_word = angle ? "angle of the chord" : "deflection of the tip";
   columns.y_is = angle ? Quantity::angle : Quantity::length;
   columns.y_preferred = "deflection sag drop";
@@ -54,6 +55,7 @@ CurveColumns zone_columns() {
   columns.x_preferred = "distance position";
   columns.y_word = "shear angle";
   columns.y_preferred = "shear gamma";
+  columns.y_wanted = "shear angle";
   columns.y_is = Quantity::angle;
   return columns;
 }

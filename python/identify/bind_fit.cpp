@@ -51,6 +51,7 @@ Curve curve_of(const std::vector<double>& x, const std::vector<double>& y,
     throw py::value_error(fmt::format("curve: {} places, but {} values", x.size(), y.size()));
   Curve curve{"curve", "x", "y", x, y, {}};
   if (!angle_deg.empty()) curve.angle_name = "angle";
+  curve.angle_written = {{}, "degrees", degree};
   for (const double angle : angle_deg)
     curve.angle.push_back(angle * degree);
   for (std::size_t i = 0; i < x.size(); ++i)

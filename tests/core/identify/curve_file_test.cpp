@@ -193,19 +193,21 @@ TEST(CurveChecks, RefuseWhatIsNoLoading) {
     const char *text, *message;
   };
   const Wrong wrong[] = {
-      {"0,0\n1,1\n2,2\n1,1\n0,0\n", "FILE:4:1: error: column 1 = 1: the extension must rise, but "
-                                    "falls from 2 in line 3; if the test was unloaded there, take "
-                                    "out the rows from line 4 on"},
-      {"0,0\n-1,1\n-2,2\n", "FILE:2:1: error: column 1 = -1: the extension falls from the first "
+      {"0,0\n1,1\n2,2\n1,1\n0,0\n",
+       "FILE:4:1: error: column 1 = 1 mm: the extension must rise, but "
+       "falls from 2 mm in line 3; if the test was unloaded there, take "
+       "out the rows from line 4 on"},
+      {"0,0\n-1,1\n-2,2\n", "FILE:2:1: error: column 1 = -1 mm: the extension falls from the first "
                             "row on, it must rise; turn its sign round"},
       {"5,0\n4,1\n3,2\n", "the extension falls from the first row on"},
       {"2,0\n2,1\n2,2\n", "the extension is the same in every row, it must rise; choose"},
-      {"-1,0\n0,1\n2,2\n", "FILE:1:1: error: column 1 = -1: the extension must not be below 0; "
+      {"-1,0\n0,1\n2,2\n", "FILE:1:1: error: column 1 = -1 mm: the extension must not be below 0; "
                            "give the extension at which the load begins to rise with --toe"},
-      {"0,0\n1,-1\n2,-2\n", "FILE:3:1: error: column 2 = -2: the load must not be below 0 by more "
-                            "than 2 % of its largest value, 0; turn the sign"},
-      {"0,-1\n1,4\n2,9\n", "column 2 = -1: the load must not be below 0 by more than 2 % of its "
-                           "largest value, 9; give the value that the load cell shows"},
+      {"0,0\n1,-1\n2,-2\n",
+       "FILE:3:1: error: column 2 = -2 N: the load must not be below 0 by more "
+       "than 2 % of its largest value, 0 N; turn the sign"},
+      {"0,-1\n1,4\n2,9\n", "column 2 = -1 N: the load must not be below 0 by more than 2 % of its "
+                           "largest value, 9 N; give the value that the load cell shows"},
       {"0,0\n1,0\n2,0\n",
        "FILE:1:1: error: column 2 = 0: the load is 0 in every row, it must rise; "
        "choose another column with --y-column"}};
@@ -222,8 +224,9 @@ TEST(CurveChecks, LeaveOutRowsBarelyBelowZero) {
   const Reading reading = checked("-0.9,3\n-0.2,2\n0,0\n100,5\n");
   ASSERT_TRUE(reading.curve) << reading.texts();
   EXPECT_EQ(reading.curve->x, (Values{0.0, 100.0}));
-  EXPECT_NE(reading.texts().find("warning: 2 rows with extension below 0, down to -0.9: left out"),
-            std::string::npos)
+  EXPECT_NE(
+      reading.texts().find("warning: 2 rows with extension below 0, down to -0.9 mm: left out"),
+      std::string::npos)
       << reading.texts();
 }
 

@@ -148,7 +148,7 @@ TEST(IdentifyRubber, WhatIsNoCurveOfRubberIsRefused) {
   for (const auto& [curve, words] : {std::pair{falls, "the stress falls"},
                                      {kilo, "is no fabric's"},
                                      {few, "at least 4"},
-                                     {percent, "the strain must be at most 10"},
+                                     {percent, "it must be at most 10"},
                                      {no_stretch, "a stretch is 1"}}) {
     const Outcome o = found({curve});
     EXPECT_FALSE(o.fit) << words;

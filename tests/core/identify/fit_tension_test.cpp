@@ -109,7 +109,7 @@ TEST(IdentifyTension, RefusesWithOneMessage) {
        "with rising strain, by more than 2 %"},
       {tension_curve(line, 2.0, 40),
        {},
-       "e = 2: the strain must be less than 0.5; give "
+       "e = 2: is a strain of 2, it must be less than 0.5; give "
        "--gauge-length if the column is a displacement"},
       {tension_curve(line, 0.01, 1), {}, "yarn.csv:1:1: error: 1 row with a strain above 0"}};
   for (const Wrong& w : wrong) {

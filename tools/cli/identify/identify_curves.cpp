@@ -84,6 +84,7 @@ std::optional<Curve> angles_of(const IdentifyArguments& a, Diagnostics& diagnost
   columns.y_word = "shear angle";
   columns.y_is = Quantity::angle;
   columns.y_preferred = "shear gamma";
+  columns.y_wanted = "shear angle";
   columns.y = {argument.column.empty() ? a.angle.name : argument.column, a.angle.unit};
   columns.y_option = "--angle-column";
   return read_curve(argument.file, columns, diagnostics);

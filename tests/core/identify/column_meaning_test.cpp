@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What headers of test machines and spreadsheets say of their columns.
-#include "core/identify/units.hpp"
+#include "core/identify/column_meaning.hpp"
 
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform::units_test {
+namespace plyform::column_meaning_test {
 namespace {
 
 using Q = Quantity;
 
-TEST(Units, AreReadFromHeadersAsTheyAreWritten) {
+TEST(ColumnMeaning, AreReadFromHeadersAsTheyAreWritten) {
   struct Header {
     const char *name, *below;
     Quantity quantity;
@@ -55,19 +55,10 @@ TEST(Units, AreReadFromHeadersAsTheyAreWritten) {
   }
 }
 
-TEST(Units, AreThoseOfTheirQuantity) {
-  EXPECT_EQ(find_unit("lbf")->factor, 4.4482216152605);
-  EXPECT_EQ(find_unit("in")->factor, 25.4);
-  EXPECT_FALSE(find_unit("furlong"));
-  EXPECT_FALSE(find_unit("MN")); // read as mN as often as not
-  EXPECT_NE(units_of(Q::force).find("kN"), std::string::npos);
-  EXPECT_EQ(units_of(Q::force).find("mm"), std::string::npos);
-}
-
-TEST(Units, WordsAreWholeWords) {
+TEST(ColumnMeaning, WordsAreWholeWords) {
   EXPECT_TRUE(has_word("Tip deflection (mm)", "sag deflection"));
   EXPECT_FALSE(has_word("sagging", "sag deflection"));
 }
 
 } // namespace
-} // namespace plyform::units_test
+} // namespace plyform::column_meaning_test
