@@ -14,8 +14,9 @@ namespace {
 
 constexpr std::size_t least_relaxation_rows = 8, most_branches = 8;
 constexpr double per_decade = 2.0;
-constexpr double no_branch = 1e-3; // of the load at the stop
-constexpr double as_good = 1.05;   // residuals of merged_branches branches over those of all
+constexpr double no_branch = 1e-3;  // of the load at the stop
+constexpr double ramp_share = 0.05; // of the largest load: a load that rises by more is of the ramp
+constexpr double as_good = 1.05;    // residuals of merged_branches branches over those of all
 
 /// Columns 1, e^(-t/theta_k).
 Eigen::MatrixXd prony_columns(const std::vector<double>& t, const std::vector<double>& times) {
@@ -100,9 +101,46 @@ PronySeries merged_branches(const Curve& c, PronySeries s) {
   return s;
 }
 
+/// Reports an error and returns true if the curve begins with rows of the ramp, where the load
+/// rises.
+bool has_ramp(const Curve& c, const RelaxationTest& test, Diagnostics& diagnostics) {
+  const auto top = static_cast<std::size_t>(std::max_element(c.y.begin(), c.y.end()) - c.y.begin());
+  if (c.y.front() >= (1.0 - ramp_share) * c.y[top] || c.y.back() >= c.y[top]) return false;
+  const double stop = test.ramp > 0.0 && test.ramp <= c.x[top] ? test.ramp : c.x[top];
+  diagnostics.error(
+      place_of(c, top), c.y_name, written_y(c, top),
+      fmt::format("the load rises up to here, at {} = {}, and falls only then: the rows before are "
+                  "of the ramp",
+                  c.x_name, written_x(c, top)),
+      fmt::format("take the rows before line {} out, and let time 0 be the stop: take {:g} s, when "
+                  "the ramp ended, off all times",
+                  c.line[top], stop));
+  return true;
+}
+
+/// Warns of times that seem to count from the start of the ramp: rows close to each other, of which
+/// the first comes just when the ramp has ended. Loads of a series that begins later do not show
+/// it, as each branch is only smaller then.
+void warn_of_late_zero(const Curve& c, const RelaxationTest& test, const RelaxationFit& fit,
+                       Diagnostics& diagnostics) {
+  constexpr double just = 0.95, close = 10.0;
+  const double first = c.x.front();
+  if (!(test.ramp > 0.0) || first < just * test.ramp || first < close * (c.x[1] - first)) return;
+  std::string larger;
+  for (const RelaxationBranch& branch : fit.branches)
+    larger += fmt::format("{}that of {:.3g} s {:.3g} times", larger.empty() ? "" : ", ",
+                          branch.time, std::exp(test.ramp / branch.time));
+  diagnostics.warning(
+      place_of(c), fmt::format("{} = {}: the first row comes after a ramp of {:g} s, and the next "
+                               "one soon: if the time counts from the start of the ramp, take {:g} "
+                               "s off all times, or branches come out too large, {}",
+                               c.x_name, written_x(c, 0), test.ramp, test.ramp, larger));
+}
+
 bool check_decay(const Curve& c, const RelaxationTest& test, Diagnostics& diagnostics) {
   const auto error = [&](std::size_t row, const std::string& rule, const std::string& remedy) {
-    diagnostics.error(place_of(c, std::min(row, c.size() - 1)), c.x_name, "", rule, remedy);
+    row = std::min(row, c.size() - 1);
+    diagnostics.error(place_of(c, row), c.x_name, written_x(c, row), rule, remedy);
     return false;
   };
   if (c.size() < least_relaxation_rows)
@@ -114,6 +152,7 @@ bool check_decay(const Curve& c, const RelaxationTest& test, Diagnostics& diagno
       return error(i, "the time does not rise", "take out the row, or sort the rows");
   if (c.x.front() < 0.0)
     return error(0, "times before the stop are of the ramp", "let time 0 be the stop");
+  if (has_ramp(c, test, diagnostics)) return false;
   const double first = c.x.front() > 0.0 ? c.x.front() : c.x[1];
   if (!(c.x.back() >= 10.0 * first))
     return error(c.size() - 1, "the times cover less than a decade",
@@ -159,6 +198,7 @@ std::optional<RelaxationFit> identify_relaxation(Curve c, const RelaxationTest& 
   if (!check_quality(c, fit.quality, fmt::format("{:.3g} s", fit.quality.largest_at),
                      "take out rows of the ramp, or check the load's zero", diagnostics))
     return std::nullopt;
+  warn_of_late_zero(c, test, fit, diagnostics);
   return fit;
 }
 

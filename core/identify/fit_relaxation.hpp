@@ -48,7 +48,8 @@ struct RelaxationFit {
 
 /// Curve: x time (s) since the stop, y load (N). Reports an error and returns nothing for fewer
 /// than eight rows, times that do not rise or cover less than a decade, a load that does not fall
-/// where branches are looked for, and residuals of more than 20 %.
+/// where branches are looked for, rows of the ramp, and residuals of more than 20 %. Warns where
+/// times seem to count from the start of the ramp.
 std::optional<RelaxationFit> identify_relaxation(Curve curve, const RelaxationTest& test,
                                                  const Fabric& fabric, Diagnostics& diagnostics);
 

@@ -291,6 +291,29 @@ TEST(IdentifyRelaxation, RefusesWhatIsNone) {
   EXPECT_NE(refused(back).find("the time does not rise"), std::string::npos);
 }
 
+TEST(IdentifyRelaxation, SeesRowsOfTheRampAndTimeFromItsStart) {
+  Curve late = relaxation_curve(0.0);
+  late.x.erase(late.x.begin()), late.y.erase(late.y.begin()), late.line.erase(late.line.begin());
+  for (double& t : late.x)
+    t += ramp;
+  Diagnostics told;
+  EXPECT_TRUE(identify_relaxation(late, {frame, angle, ramp}, glass_weave(), told));
+  EXPECT_NE(texts(told).find("take 2 s off all times"), std::string::npos) << texts(told);
+  Curve whole = late; // ten rows of the ramp before
+  for (int i = 9; i >= 0; --i) {
+    whole.x.insert(whole.x.begin(), 0.19 * (i + 1));
+    whole.y.insert(whole.y.begin(), 0.1 * (i + 0.5) * late.y.front());
+    whole.line.push_back(static_cast<int>(whole.line.size()) + 2);
+  }
+  Diagnostics refused;
+  EXPECT_FALSE(identify_relaxation(whole, {frame, angle, ramp}, glass_weave(), refused));
+  EXPECT_NE(texts(refused).find("the rows before are of the ramp"), std::string::npos);
+  Diagnostics none; // at once after the stop, with close rows
+  EXPECT_TRUE(
+      identify_relaxation(relaxation_curve(0.002), {frame, angle, ramp}, glass_weave(), none));
+  EXPECT_EQ(texts(none).find("off all times"), std::string::npos);
+}
+
 // Pull-out.
 
 /// 80 mm of pull with a peak at the start, at speeds, pressures and a viscosity of a melt.

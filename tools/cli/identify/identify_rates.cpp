@@ -159,12 +159,14 @@ void put_rated_specimens(const RatesFit& fit, Identified& result) {
     const RatedQuality& one = fit.specimens[p];
     if (const std::string taken = corrections_text(fit.corrected[p], " mm"); !taken.empty())
       result.figures.push_back(fmt::format("taken off {}: {}", file_name(one.file), taken));
+    const bool flows = std::isfinite(one.viscous_ratio);
     result.notes.push_back(fmt::format(
-        "{}: {:g} mm/s, {:.3g} 1/s in the mean{}; residuals {:.2g} % rms, viscous load {:.3g} "
-        "times that of the law",
-        file_name(one.file), one.speed, one.mean_rate,
+        "{}: {:g} mm/s, {:.3g} 1/s in the mean{}; residuals {:.2g} % rms, {}", file_name(one.file),
+        one.speed, one.mean_rate,
         one.temperature ? fmt::format(", {:g} degC", *one.temperature) : std::string(),
-        100.0 * one.quality.rms, one.viscous_ratio));
+        100.0 * one.quality.rms,
+        flows ? fmt::format("viscous load {:.3g} times that of the law", one.viscous_ratio)
+              : std::string("no viscous load by the law")));
   }
 }
 
