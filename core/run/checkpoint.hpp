@@ -7,6 +7,7 @@
 #include "core/model/energies.hpp"
 #include "core/results/summary.hpp"
 #include "core/run/astray_forces.hpp"
+#include "core/run/densest_packing.hpp"
 #include "core/run/dwell.hpp"
 #include "core/solver/scene.hpp"
 
@@ -54,18 +55,20 @@ struct RunState {
   Dwell dwell;
   std::vector<KnownForce> known_forces; ///< core/run/pressed_stack.hpp
   std::vector<AstrayForce> astray;      ///< core/run/astray_forces.hpp
+  std::vector<Overpacked> packing;      ///< core/run/densest_packing.hpp
   int outputs_written = -1;
   double elapsed = 0.0; ///< s of wall time
 };
 
 template <class F>
 void each_member(RunState& run, F&& f) {
-  auto& [good, energy, dwell, known_forces, astray, outputs_written, elapsed] = run;
+  auto& [good, energy, dwell, known_forces, astray, packing, outputs_written, elapsed] = run;
   f("good", good);
   f("energy", energy);
   f("dwell", dwell);
   f("known_forces", known_forces);
   f("astray", astray);
+  f("packing", packing);
   f("outputs_written", outputs_written);
   f("elapsed", elapsed);
 }

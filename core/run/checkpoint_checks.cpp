@@ -366,9 +366,9 @@ void check(const Scene& s, const RunState& run, const std::vector<ArraySizes>& m
              all_sound(dwell.high) && sound(dwell.window_end) && sound(dwell.next_look) &&
              sound(dwell.low_work) && sound(dwell.high_work),
          "the dwell");
-  expect(sound(run.energy) && run.outputs_written >= -1 &&
-             run.outputs_written < s.data.solver.outputs && run.elapsed >= 0.0 &&
-             sound(run.elapsed),
+  expect(sound(run.energy) && finite_of_each(run.packing, s.plies.size()) &&
+             run.outputs_written >= -1 && run.outputs_written < s.data.solver.outputs &&
+             run.elapsed >= 0.0 && sound(run.elapsed),
          "the progress of the run");
 }
 

@@ -8,6 +8,7 @@
 #include "core/model/fabric_estimates.hpp"
 #include "core/model/motion.hpp"
 #include "core/run/checkpoint.hpp"
+#include "core/run/densest_packing.hpp"
 #include "core/run/facet_penetration.hpp"
 #include "core/run/output_state.hpp"
 #include "core/run/ply_motion.hpp"
@@ -217,8 +218,9 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
   std::vector<std::string> reasons = doubts(s, result.last, sum.plies, cuts);
   for (std::string& reason : doubts_of_forces(s, state.known_forces, state.astray))
     reasons.push_back(std::move(reason));
-  for (std::string& reason : doubts_of_sliding(sum.work.pairs))
-    reasons.push_back(std::move(reason));
+  for (auto&& more :
+       {doubts_of_sliding(sum.work.pairs), doubts_of_packing(s, result.last, state.packing)})
+    reasons.insert(reasons.end(), more.begin(), more.end());
   if (sum.contact.intersections_within_plies > 0 && !any_self_contact(s))
     reasons.push_back(fmt::format("do not trust folds: {} pairs of triangles of one ply cross, as "
                                   "nothing keeps them apart; contact.self = \"on\" does",
@@ -298,6 +300,7 @@ private:
     follow_known_forces(s_, stroke, time, state_.known_forces);
     follow_astray_forces(s_, state_.astray);
     result_.last = make_frame(s_, tool_surfaces_, state_.energy, pool_);
+    follow_packing(s_, result_.last, state_.packing);
     state_.outputs_written = outputs_due(s_);
     if (hooks_.frame) hooks_.frame(result_.last);
   }

@@ -3,6 +3,7 @@
 //
 //   n plies of thickness t at pressure p, sheared by gamma: t(p) / cos(gamma) each, in series
 //   gap = sum t(p) / cos(gamma);  F = p A0 cos(gamma)                                         (F)
+#include "core/run/densest_packing.hpp"
 #include "core/run/run.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/scene.hpp"
@@ -242,6 +243,53 @@ TEST(ClosedMould, BeyondTheDensestPackingForcesAreNotKnown) {
   EXPECT_EQ(run.summary.status, "doubtful");
   for (const KnownForce& known : run.summary.known_forces)
     EXPECT_FALSE(known.to_end());
+  EXPECT_NE(run.summary.message.find("the fibre volume and thickness of ply1"), std::string::npos);
+  EXPECT_NE(run.summary.message.find("beyond its densest packing of 62.0 %"), std::string::npos);
+}
+
+/// Nothing is said of stacks that stay within their curves; what has been beyond and is no more is
+/// told by its stroke; and so are triangles that are crushed in their plane, and yarns that
+/// pressing has stretched.
+TEST(ClosedMould, FibreVolumesBeyondTheDensestPackingAreDoubted) {
+  Scene scene = make_scene(between_plates({packing_weave()}, 0.5));
+  ThreadPool pool{1};
+  start(scene, pool);
+  const auto frame = [&](double volume, double stroke, double strain = 0.0) {
+    Frame f;
+    PlyFrame& ply = f.plies.emplace_back();
+    ply.x = scene.plies[0].x, ply.triangles = scene.plies[0].membrane.triangles;
+    ply.fibre_volume.assign(ply.triangles.size(), 0.5);
+    ply.thickness.assign(ply.triangles.size(), 0.5);
+    ply.families.resize(2);
+    for (FamilyFrame& family : ply.families)
+      family.strain.assign(ply.triangles.size(), strain);
+    ply.fibre_volume[3] = volume, f.stroke_mm = stroke;
+    return f;
+  };
+  std::vector<Overpacked> plies;
+  follow_packing(scene, frame(0.62, 0.1), plies);
+  EXPECT_TRUE(doubts_of_packing(scene, frame(0.62, 0.1), plies).empty());
+  follow_packing(scene, frame(0.65, 0.2), plies);
+  follow_packing(scene, frame(0.60, 0.3), plies);
+  std::vector<std::string> told = doubts_of_packing(scene, frame(0.60, 0.3), plies);
+  ASSERT_EQ(told.size(), 1u);
+  for (const char* part : {"ply1: 65.0 % at (", "after 0.2 mm", "pressed beyond"})
+    EXPECT_NE(told[0].find(part), std::string::npos) << told[0];
+  told = doubts_of_packing(scene, frame(0.60, 0.3, 0.03), {}); // its yarns by 3 % each
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_NE(told[0].find("its volume balance is off by 6.1 %, as its yarns are stretched"),
+            std::string::npos)
+      << told[0];
+  EXPECT_TRUE(doubts_of_packing(scene, frame(0.60, 0.3, 0.005), {}).empty());
+  Frame crushed = frame(1.056, 0.4);
+  const Triangle t = crushed.plies[0].triangles[3];
+  Vec3& corner = crushed.plies[0].x[at(t[2])];
+  corner = 0.55 * crushed.plies[0].x[at(t[0])] + 0.45 * corner;
+  follow_packing(scene, crushed, plies);
+  told = doubts_of_packing(scene, crushed, plies);
+  ASSERT_EQ(told.size(), 1u);
+  for (const char* part : {"105.6 %", "crushed in their plane, there to 45 % of their area"})
+    EXPECT_NE(told[0].find(part), std::string::npos) << told[0];
 }
 
 } // namespace
