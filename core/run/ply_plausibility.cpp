@@ -351,7 +351,8 @@ std::vector<std::string> doubts(const Scene& s, const Frame& last,
                                 const std::vector<PlyReport>& plies,
                                 const std::vector<ToolCut>& cuts) {
   std::vector<std::string> found = doubts_of_yarns(s, last, plies);
-  if (const double error = last.energy.balance_error(); std::abs(error) > doubtful_balance_error)
+  if (const double error = last.energy.balance_error();
+      !(std::abs(error) <= doubtful_balance_error))
     found.push_back(fmt::format("do not trust forces: the energy balance is off by {:.2g} %, "
                                 "energy that comes from nowhere "
                                 "or goes nowhere; a smaller solver.step_factor makes it less",
