@@ -10,6 +10,7 @@
 #include "core/model/motion.hpp"
 #include "core/run/facet_penetration.hpp"
 #include "core/setup/boundaries_ahead.hpp"
+#include "core/setup/compaction_ahead.hpp"
 #include "core/setup/friction_ahead.hpp"
 #include "core/setup/outlook_plies.hpp"
 #include "core/setup/size_ahead.hpp"
@@ -239,6 +240,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgr
   describe_wrinkles(s, lines);
   tell("looks at tools", 0.3);
   describe_tools(s, prepared.meshes, lines);
+  describe_compaction(s, pool, lines);
   tell("looks at boundaries and steps", 0.45);
   for (std::string& line : boundaries_ahead(s))
     lines.push_back(std::move(line));

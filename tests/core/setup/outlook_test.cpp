@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What check foresees of a run.
 #include "core/run/run.hpp"
+#include "core/setup/compaction_ahead.hpp"
 #include "core/setup/outlook.hpp"
 #include "core/setup/size_ahead.hpp"
+#include "support/packing_weave.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -20,6 +22,25 @@ TEST(Outlook, ForeseesTheStepsOfDraftsWithinAThird) {
         static_cast<double>(run_case(*prepared.value, 1, {}, prepared.meshes).summary.steps);
     EXPECT_NEAR(foreseen, taken, taken / 3.0) << name;
   }
+}
+
+TEST(Outlook, WarnsOfAMouldThatClosesOnPliesOfWhichOnlySomeGiveWay) {
+  Fabric without = packing_weave();
+  without.compaction.reset(), without.name = "plain";
+  const auto warned = [](const std::vector<Fabric>& fabrics, double gap) {
+    const Scene scene = make_scene(between_plates(fabrics, gap));
+    ThreadPool pool(1);
+    Lines lines;
+    describe_compaction(scene, pool, lines);
+    return lines;
+  };
+  const Lines lines = warned({packing_weave(), without}, 1.1);
+  ASSERT_EQ(lines.size(), 1u);
+  for (const char* part : {"    warning: ", "plies ply1, ", "on ply2, ", "give plain a compaction"})
+    EXPECT_NE(lines[0].find(part), std::string::npos) << lines[0];
+  EXPECT_TRUE(warned({packing_weave(), packing_weave()}, 1.1).empty());
+  EXPECT_TRUE(warned({without, without}, 1.1).empty());
+  EXPECT_TRUE(warned({packing_weave(), without}, 3.0).empty()); // no mould that closes
 }
 
 TEST(Outlook, TellsTheMemory) {
