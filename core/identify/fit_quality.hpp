@@ -32,7 +32,7 @@ struct FitOptions {
   /// are warned of, not refused.
   bool doubtful = false;
   std::optional<ShearFormKind> law = {}; ///< of shear; nothing: chosen by the rows
-  bool flows = false; ///< the matrix resists by rates, so that loads do not begin at 0
+  bool flows = false; ///< the matrix resists by rates, or stitches pull: loads do not begin at 0
   int points = 0;     ///< of a table of shear, 1 to 20; 0: chosen
   /// The fraction of a choice of the law that is done, which takes seconds; 1 at its end.
   std::function<void(double fraction)> progress = {};

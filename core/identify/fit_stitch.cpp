@@ -4,6 +4,7 @@
 #include "core/identify/fit_signs.hpp"
 #include "core/identify/shear_rows.hpp"
 #include "core/identify/stitch_rows.hpp"
+#include "core/identify/stitch_start.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +13,6 @@
 
 namespace plyform {
 namespace {
-
-/// What all that follows is about.
-struct StitchTest {
-  const ShearTest& test;
-  const Fabric& fabric;
-  const FitOptions& options;
-  std::vector<std::size_t> own, others; ///< indices of stitches
-  bool negative;                        ///< the side that draws it
-};
 
 /// Whether shear of one sign draws all legs of a stitch; reports an error if not.
 std::optional<bool> drawn_by_negative(const Fabric& fabric, const std::vector<std::size_t>& own,
@@ -73,12 +65,14 @@ struct DrawnRows {
 };
 
 std::optional<DrawnRows> drawn_side(const StitchTest& t, const std::vector<Curve>& curves,
-                                    double to, Diagnostics& diagnostics) {
+                                    double to, bool pulls, Diagnostics& diagnostics) {
+  FitOptions options = t.options;
+  options.flows = options.flows || pulls;
   DrawnRows drawn{{t.test, t.fabric, t.own, t.negative, {}, {}, {}}, {}, {}, {}, {}, 0};
   const auto cleared = without_stitches(curves, t.test, t.fabric, t.others, t.negative, t.options);
   constexpr double beyond = 1.02;
   for (std::size_t n = 0; n < cleared.size(); ++n) {
-    const auto specimen = shear_specimen(cleared[n], t.test, t.fabric, t.options, diagnostics);
+    const auto specimen = shear_specimen(cleared[n], t.test, t.fabric, options, diagnostics);
     if (!specimen) return std::nullopt;
     const auto count = std::count_if(specimen->angle.begin(), specimen->angle.end(),
                                      [&](double g) { return g <= beyond * to; });
@@ -133,67 +127,18 @@ struct BothSides {
   StitchBeside solved;
 };
 
-/// Rows up to an angle of both sides, those of the slack one last, for a first law.
-struct FirstRows {
-  std::vector<double> extension, load;
-  std::size_t drawn = 0;
-};
-
-FirstRows first_rows(const StitchTest& t, const SignedCurves& curves, double to) {
-  FirstRows rows;
-  for (const bool slack : {false, true}) {
-    for (const Curve& curve : slack != t.negative ? curves.negative : curves.positive)
-      for (std::size_t i = 0; i < curve.size(); ++i)
-        if (curve.x[i] >= 0.0 && curve.x[i] <= extension_at(t.test, to)) {
-          rows.extension.push_back(curve.x[i]);
-          rows.load.push_back(curve.y[i]);
-        }
-    if (!slack) rows.drawn = rows.extension.size();
-  }
-  return rows;
-}
-
-/// The fabric's own law; of one with pre-tension the line that, with a polynomial for shear,
-/// follows the beginning of both sides best.
-StitchLaw first_law(const StitchTest& t, const SignedCurves& curves) {
-  StitchLaw law = t.fabric.stitches[t.own.front()].law;
-  if (!(law.at(0.0).value > 0.0)) return law;
-  constexpr double to = 20.0 * degree, tautest = -0.3;
-  constexpr int coefficients = 2, steps = 60;
-  const FirstRows rows = first_rows(t, curves, to);
-  const Eigen::VectorXd x = vector_of(rows.extension), y = vector_of(rows.load);
-  if (y.size() < 2 * (coefficients + 2)) return law;
-  Eigen::MatrixXd a(x.size(), coefficients + 1);
-  a.leftCols(coefficients) = linear_shear({t.test, t.fabric, coefficients, to, 1.0}).loads(x);
-  double lowest = std::numeric_limits<double>::infinity();
-  for (int i = 1; i <= steps; ++i) {
-    const double e0 = tautest * i / steps;
-    for (Eigen::Index r = 0; r < x.size(); ++r) {
-      const bool slack = static_cast<std::size_t>(r) >= rows.drawn;
-      a(r, coefficients) = stitch_load(t.test, t.fabric, t.own, x[r], slack != t.negative,
-                                       [e0](double e) { return std::max(0.0, e - e0); });
-    }
-    const FixedFit fit = fit_fixed(a, y, Eigen::ArrayXd::Ones(x.size()));
-    if (!(fit.squares < lowest) || !(fit.k[coefficients] > 0.0)) continue;
-    lowest = fit.squares;
-    law.tension = {};
-    law.tension.stiffness = fit.k[coefficients];
-    law.taut_at = e0;
-  }
-  return law;
-}
-
-/// Law of shear and stitch, with what the stitch pulls on the slack side.
-std::optional<BothSides> solve_sides(const StitchTest& t, const SignedCurves& curves,
-                                     std::optional<double> breaks, Diagnostics& diagnostics) {
+/// Law of shear and stitch, with what the stitch pulls on the slack side, from a first law on.
+std::optional<BothSides> solve_from(StitchLaw law, const StitchTest& t, const SignedCurves& curves,
+                                    std::optional<double> breaks, Diagnostics& diagnostics) {
   const auto& slack_curves = t.negative ? curves.positive : curves.negative;
   const auto& drawn_curves = t.negative ? curves.negative : curves.positive;
-  StitchLaw law = first_law(t, curves);
   constexpr int rounds = 12;
   for (int round = 0; round < rounds; ++round) {
     Diagnostics told;
     const auto slack = slack_side(t, slack_curves, law, told);
-    const auto drawn = slack ? drawn_side(t, drawn_curves, slack->quality.to, told) : std::nullopt;
+    const bool pulls = law.at(0.0).value > 0.0; // so that loads do not begin at 0
+    const auto drawn =
+        slack ? drawn_side(t, drawn_curves, slack->quality.to, pulls, told) : std::nullopt;
     const bool some = drawn && drawn->angle.size() >= 6 && !drawn->rows.elongations().empty();
     const double before = law.at(0.0).value;
     std::optional<BothSides> sides;
@@ -219,6 +164,27 @@ std::optional<BothSides> solve_sides(const StitchTest& t, const SignedCurves& cu
                         "record more rows, or test the other side further");
     return sides;
   }
+  return std::nullopt;
+}
+
+/// Likewise, from the first law that leads to one.
+std::optional<BothSides> solve_sides(const StitchTest& t, const SignedCurves& curves,
+                                     std::optional<double> breaks, Diagnostics& diagnostics) {
+  std::optional<Diagnostics> refused; // from the first start
+  for (const StitchLaw& law : first_laws(t, curves, breaks)) {
+    Diagnostics told;
+    auto sides = solve_from(law, t, curves, breaks, told);
+    if (sides && told.errors.empty()) {
+      diagnostics.warnings.insert(diagnostics.warnings.end(), told.warnings.begin(),
+                                  told.warnings.end());
+      return sides;
+    }
+    if (!refused) refused = std::move(told);
+  }
+  diagnostics.warnings.insert(diagnostics.warnings.end(), refused->warnings.begin(),
+                              refused->warnings.end());
+  diagnostics.errors.insert(diagnostics.errors.end(), refused->errors.begin(),
+                            refused->errors.end());
   return std::nullopt;
 }
 
