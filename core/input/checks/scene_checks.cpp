@@ -98,20 +98,24 @@ bool lay_plies(SceneCheck& check) {
   return reported.empty();
 }
 
-/// Reports plies whose bounding rectangles overlap and whose distance is less than half the sum of
-/// their thicknesses.
+/// Reports plies whose bounding rectangles are nearer each other than half the sum of their
+/// thicknesses: contact between their edges would push them apart, too.
 void check_plies_apart(SceneCheck& check) {
   for (std::size_t b = 0; b < check.plies.size(); ++b)
     for (std::size_t a = 0; a < b; ++a) {
       const FlatPly &pa = check.plies[a], &pb = check.plies[b];
-      const double apart = std::abs(pb.z - pa.z), needed = pa.half + pb.half;
-      if (!pa.bounds.intersects(pb.bounds) || apart >= needed - check.touching) continue;
+      const double beside = pa.bounds.exteriorDistance(pb.bounds);
+      const double apart = std::hypot(beside, pb.z - pa.z), needed = pa.half + pb.half;
+      if (apart >= needed - check.touching) continue;
       check.diagnostics.error(
           check.parts.plies[b].at, check.parts.plies[b].item, check.scene.plies[b].name,
-          fmt::format("overlaps ply {} at the start: the mid-surfaces are {:.4g} mm apart and need "
-                      "{:.4g} mm",
-                      check.scene.plies[a].name, apart, needed),
-          "change z of one of them, or leave z out to lay each ply on the one below");
+          fmt::format(
+              "overlaps ply {} at the start: the mid-surfaces are {:.4g} mm apart{} and need "
+              "{:.4g} mm",
+              check.scene.plies[a].name, apart, beside > 0.0 ? ", edge to edge," : "", needed),
+          beside > 0.0
+              ? "move one of them aside, or lay it on the other"
+              : "change z of one of them, or leave z out to lay each ply on the one below");
       break; // one report per ply
     }
 }
