@@ -183,6 +183,13 @@ def taken_in(server):
     upload("b.stl", b"solid b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 1\nvertex 1 0 1\nvertex 0 3 1\nendloop\n"
            b"endfacet\nendsolid b\n")
     assert server.send("api/import", {"path": "first/b.stl", "as": "tool"})["box_mm"] == [[0, 0, 1], [1, 3, 1]]
+    for unit, scale in (("ft", 304.8), ("mil", 0.0254), ("um", 1e-3), ("yd", 914.4)):
+        tool = server.send("api/import", {"path": "first/a.stl", "as": "tool", "unit": unit, "case": CASE})
+        assert abs(tool["value"]["scale"] / scale - 1) < 1e-12, (unit, tool)
+    for unit in ("ell", "furlong", "fathom", "N", "Mm", "", 5):
+        wish = {"path": "first/a.stl", "as": "tool", "unit": unit}
+        assert server.call("POST", "api/import", wish)[0] == 422, unit
+    tool = server.send("api/import", {"path": "first/a.stl", "as": "tool", "unit": "inch", "case": CASE})
     upload("c.dxf", b"0\nEOF\n")
     blank = server.send("api/import", {"path": "first/c.dxf", "as": "blank", "unit": "mm", "case": CASE})
     assert blank["key"] == "blanks" and blank["value"]["outline_file"] == "c.dxf" and "scale" not in blank["value"]

@@ -140,7 +140,7 @@ int script_command(const std::string& name, const std::vector<std::string>& argu
 /// Makes folder/report.html and prints its path; false if that failed, for a reason then printed.
 bool report_of_run(const std::string& folder);
 int difference_command(const DifferenceArguments& arguments);
-int keys_command(bool markdown, bool json);
+int keys_command(bool markdown, bool json, bool units);
 int columns_command(const std::vector<std::string>& families);
 int identify_command(const IdentifyArguments& arguments);
 int theory_command(const TheoryArguments& arguments);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/text.hpp"
+#include "base/units.hpp"
 #include "core/input/case_file.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace plyform {
 namespace {
@@ -46,9 +49,28 @@ void print_markdown(const std::vector<KeyInfo>& keys) {
   }
 }
 
+/// The table of units, a line each quantity; or for programs, what each is in mm, N, rad, N/mm2, s.
+void print_units(bool json) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const std::string& name : unit_names())
+    all.push_back({{"name", name},
+                   {"quantity", quantity_name(find_unit(name)->quantity)},
+                   {"factor", find_unit(name)->factor}});
+  if (json) return fmt::print("{}\n", all.dump());
+  for (const Quantity q :
+       {Quantity::length, Quantity::force, Quantity::angle, Quantity::strain, Quantity::stretch,
+        Quantity::force_per_length, Quantity::stress, Quantity::time})
+    fmt::print("{}\n    {}\n", quantity_name(q), joined(unit_names(q)));
+  fmt::print("force per length, stress and strain also as quotients: kgf/cm, lbf/in2, mm/m\n");
+}
+
 } // namespace
 
-int keys_command(bool markdown, bool json) {
+int keys_command(bool markdown, bool json, bool units) {
+  if (units) {
+    print_units(json);
+    return exit_done;
+  }
   const std::vector<KeyInfo> keys = case_keys();
   if (json)
     fmt::print("{}\n", case_keys_json());

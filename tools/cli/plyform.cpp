@@ -49,6 +49,7 @@ struct Arguments {
   TheoryArguments theory;
   bool markdown = false;  ///< keys as a page
   bool keys_json = false; ///< keys for programs
+  bool units = false;     ///< units in the place of keys
   std::vector<std::string> families{"warp", "weft"};
 };
 
@@ -144,7 +145,9 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
   keys->add_flag("--markdown", to.markdown, "as a page of tables");
   keys->add_flag("--json", to.keys_json, "for programs, with all that a form needs")
       ->excludes("--markdown");
-  commands.push_back({keys, [&to] { return keys_command(to.markdown, to.keys_json); }});
+  keys->add_flag("--units", to.units, "the units that columns and options of curves may be in")
+      ->excludes("--markdown");
+  commands.push_back({keys, [&to] { return keys_command(to.markdown, to.keys_json, to.units); }});
 
   CLI::App* columns = app.add_subcommand("columns", "list the columns that results have of a ply");
   columns->add_option("families", to.families, "names of its families of yarns")

@@ -2,6 +2,7 @@
 #include "core/input/dxf/dxf_outline.hpp"
 
 #include "base/text.hpp"
+#include "base/units.hpp"
 #include "core/input/dxf/dxf_drawing.hpp"
 #include "core/mesh/mesh_blank.hpp"
 
@@ -24,22 +25,35 @@ std::string point_text(const Vec2& p) {
   return fmt::format("({:.6g}, {:.6g})", p.x(), p.y());
 }
 
-struct Unit {
+/// A code of $INSUNITS, its unit as base/units.hpp has it, and in words.
+struct DrawingUnit {
   int code;
-  const char* name;
-  double mm;
+  const char *name, *words;
+  double mm() const { return find_unit(name)->factor; }
 };
-constexpr Unit units[] = {{1, "inches", 25.4}, {2, "feet", 304.8},    {4, "mm", 1.0},
-                          {5, "cm", 10.0},     {6, "metres", 1000.0}, {14, "dm", 100.0}};
+constexpr DrawingUnit drawing_units[] = {
+    {1, "in", "inches"}, {2, "ft", "feet"},   {3, "mile", "miles"},     {4, "mm", "mm"},
+    {5, "cm", "cm"},     {6, "m", "metres"},  {7, "km", "km"},          {8, "uin", "microinches"},
+    {9, "mil", "mils"},  {10, "yd", "yards"}, {12, "nm", "nanometres"}, {13, "um", "micrometres"},
+    {14, "dm", "dm"}};
+
+std::string known_codes() {
+  std::vector<std::string> codes;
+  for (const DrawingUnit& unit : drawing_units)
+    codes.push_back(fmt::format("{} {}", unit.code, unit.words));
+  return joined(codes);
+}
 
 /// mm per unit of the drawing, and the unit in words.
 std::pair<double, std::string> unit_of(const DxfDrawing& drawing, const DxfRequest& request) {
   if (request.scale) return {*request.scale, fmt::format("{:g} mm a unit", *request.scale)};
   if (drawing.unit == 0) return {1.0, "no unit given, taken for mm"};
-  for (const Unit& unit : units)
-    if (unit.code == drawing.unit) return {unit.mm, fmt::format("in {}", unit.name)};
-  throw Fault{fmt::format("its unit ($INSUNITS = {}) is not known; give the mm per unit (scale)",
-                          drawing.unit)};
+  for (const DrawingUnit& unit : drawing_units)
+    if (unit.code == drawing.unit) return {unit.mm(), fmt::format("in {}", unit.words)};
+  throw Fault{
+      fmt::format("its unit ($INSUNITS = {}) is not known; give the mm per unit (scale), or "
+                  "save it in one of {}",
+                  drawing.unit, known_codes())};
 }
 
 Profile reversed(const Profile& chain) {
@@ -258,8 +272,8 @@ DxfOutline outline_of(DxfDrawing drawing, const DxfRequest& request) {
 } // namespace
 
 double unit_named_in(const std::string& description) {
-  for (const Unit& unit : units)
-    if (description.ends_with(fmt::format("in {}", unit.name))) return unit.mm;
+  for (const DrawingUnit& unit : drawing_units)
+    if (description.ends_with(fmt::format("in {}", unit.words))) return unit.mm();
   return 1.0;
 }
 

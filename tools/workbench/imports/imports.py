@@ -2,7 +2,10 @@
 """Files in the folder that become parts of a case: what to add to it, and where a mesh has first to be made
 of a part, the command that does it."""
 
+import functools
+import json
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -17,7 +20,6 @@ from ..results.listing import check_links
 from ..server.project import Refused
 from ..server.studio import Studio
 
-UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4}
 MOST_MESH = 512 << 20
 ROW = np.dtype([("normal", "<f4", 3), ("x", "<f4", (3, 3)), ("end", "<u2")])  # of binary STL
 
@@ -35,11 +37,11 @@ def imported(studio: Studio, files: CaseFiles, wish: dict) -> dict:
     if (kind, what) == ("part", "tool"):
         return of_part(studio, files, path, wish)
     if (kind, what) == ("mesh", "tool"):
-        scale = unit_of(wish)
+        scale = unit_of(studio, wish)
         return {"key": "tool", "name": name, "value": {"shape": "mesh", "file": named, **scaled(scale)},
                 **box_of(studio, path, scale)}
     if (kind, what) == ("drawing", "blank"):
-        value = {"outline_file": named, **scaled(unit_of(wish)), "mesh": "fibres",
+        value = {"outline_file": named, **scaled(unit_of(studio, wish)), "mesh": "fibres",
                  "element_size": number_of(wish, "element_size", 10.0, 0.01, 1e4)}
         return {"key": "blanks", "name": name, "value": value}
     if (kind, what) == ("toml", "fabric"):
@@ -58,10 +60,18 @@ def scaled(scale: float) -> dict:
     return {} if scale == 1.0 else {"scale": scale}
 
 
-def unit_of(wish: dict) -> float:
-    if wish.get("unit", "mm") not in UNITS:
-        raise Refused(f"unit: one of {', '.join(UNITS)}", 422)
-    return UNITS[wish.get("unit", "mm")]
+@functools.lru_cache(maxsize=1)
+def lengths(program: Path) -> dict[str, float]:
+    """Name -> mm of the units of length that the program knows."""
+    told = subprocess.run([str(program), "keys", "--units", "--json"], capture_output=True, timeout=30, check=True)
+    return {unit["name"]: unit["factor"] for unit in json.loads(told.stdout) if unit["quantity"] == "length"}
+
+
+def unit_of(studio: Studio, wish: dict) -> float:
+    name, known = wish.get("unit", "mm"), lengths(studio.program)
+    if not isinstance(name, str) or name not in known:
+        raise Refused(f"unit: one of {', '.join(known)}", 422)
+    return known[name]
 
 
 def number_of(wish: dict, key: str, otherwise, least: float, most: float, unit: str = "mm"):
