@@ -23,4 +23,7 @@ inline constexpr UsualRange usual_shear_rigidity{1e-3, 10.0};
 /// N/mm^2, shear modulus of rubber: from very soft silicone to hard bags of Shore A 70.
 inline constexpr UsualRange usual_rubber_modulus{0.02, 5.0};
 
+/// N/mm^2, at the densest packing of a ply: vacuum 0.1, autoclaves and RTM to 2, presses to 5.
+inline constexpr double usual_compaction_pressure = 5.0;
+
 } // namespace plyform

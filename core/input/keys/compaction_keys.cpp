@@ -2,6 +2,7 @@
 #include "core/input/keys/compaction_keys.hpp"
 
 #include "core/input/keys/key_member.hpp"
+#include "core/model/usual_ranges.hpp"
 
 namespace plyform {
 
@@ -9,6 +10,8 @@ using K = KeyKind;
 
 Rows compaction_rows() {
   const Range thickness{.least = 1e-4, .most = 100.0}, pressure{.least = 0.0, .most = 1e3};
+  const Range usual_thickness{.least = 0.02, .most = 20.0},
+      usual_pressure{.least = 0.0, .most = usual_compaction_pressure};
   const std::string table = "fabrics.NAME.compaction";
   return {
       {.key = "fabrics.NAME.fibre_density",
@@ -28,6 +31,7 @@ Rows compaction_rows() {
        .unit = "mm, N/mm2",
        .instead = {"stiffness"},
        .ranges = {thickness, pressure},
+       .usual = {usual_thickness, usual_pressure},
        .least_items = 2,
        .meaning = "[thickness, pressure] of one ply between flat plates, from [thickness of the "
                   "fabric, 0] down to its densest packing"},
@@ -52,6 +56,7 @@ Rows compaction_rows() {
        .unit = "mm, N/mm2",
        .otherwise = "back as it came",
        .ranges = {thickness, pressure},
+       .usual = {usual_thickness, usual_pressure},
        .least_items = 2,
        .meaning = "[thickness, pressure] as it opens again, in the order of table, from "
                   "[thickness that is left, 0] to where loading ended"},
@@ -59,6 +64,7 @@ Rows compaction_rows() {
        .unit = "mm",
        .fallback = "0.0",
        .ranges = {{.least = 0.0, .most = 10.0}},
+       .usual = {{.least = 0.0, .most = 1.0}},
        .meaning = "how much thinner two plies on each other are than twice one, as they nest"}};
 }
 

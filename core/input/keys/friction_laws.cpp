@@ -37,6 +37,7 @@ Rows hersey_rows() {
            .unit = "mm, -",
            .instead = {"exponent"},
            .ranges = {{.least = 1e-14, .most = 1e6}, {.least = 1e-6, .most = 1e3}},
+           .usual = {{.least = 1e-10, .most = 1e3}, {.least = 0.01, .most = 2.0}},
            .least_items = 2,
            .of = "law",
            .with = with,
@@ -121,6 +122,7 @@ Rows film_rows() {
            .unit = "N/mm2",
            .fallback = "0.0",
            .ranges = {{.least = 0.0, .most = 1e3}},
+           .usual = {{.least = 0.0, .most = 1.0}},
            .of = "law",
            .with = {"film"},
            .meaning = "shear stress that the film bears at rest",
@@ -149,6 +151,7 @@ Rows factor_rows() {
            .unit = "mm, N/mm2",
            .otherwise = "none",
            .ranges = {slid_range, {.least = 0.0, .most = 1e3}},
+           .usual = {{.least = 0.0, .most = 1e3}, {.least = 0.0, .most = 1.0}},
            .least_items = 2,
            .meaning = "[way slid since the faces touched, shear stress beside the friction, "
                       "whatever presses]: tack that is overcome"}};

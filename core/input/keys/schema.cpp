@@ -101,11 +101,15 @@ double factor_of_unit(const std::string& unit) {
 
 } // namespace
 
-double unit_factor(const KeyRow& row, std::size_t column) {
+std::string unit_of_column(const KeyRow& row, std::size_t column) {
   std::string units = row.unit;
   for (std::size_t c = 0; c < column && units.find(", ") != std::string::npos; ++c)
     units = units.substr(units.find(", ") + 2);
-  return factor_of_unit(units.substr(0, units.find(", ")));
+  return units.substr(0, units.find(", "));
+}
+
+double unit_factor(const KeyRow& row, std::size_t column) {
+  return factor_of_unit(unit_of_column(row, column));
 }
 
 } // namespace plyform

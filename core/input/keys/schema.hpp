@@ -99,6 +99,9 @@ std::string pattern_of(const std::string& pattern, const std::string& name);
 /// The last part of a pattern: radius for tool[].radius.
 std::string last_part(const std::string& pattern);
 
+/// The unit of a column: "N/mm2" of the second one of "mm, N/mm2".
+std::string unit_of_column(const KeyRow& row, std::size_t column);
+
 /// Factor from the unit of a column to the program's units (mm, N, s, t, rad): 1e-12 for g/m2.
 double unit_factor(const KeyRow& row, std::size_t column);
 

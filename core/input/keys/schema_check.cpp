@@ -46,6 +46,12 @@ void warn_of_radians(const Check& check, const TomlNode& value, const std::strin
                             value.source_text, std::copysign(nearest, value.number)));
 }
 
+/// The unit of a column with a blank before it; empty of plain numbers.
+std::string unit_behind(const KeyRow& row, std::size_t column) {
+  const std::string unit = unit_of_column(row, column);
+  return unit == "-" ? "" : " " + unit;
+}
+
 bool check_number(const Check& check, TomlNode& value, const std::string& item,
                   std::size_t column) {
   if (!value.is_number()) return check.fail(value, item, "must be a number");
@@ -55,8 +61,7 @@ bool check_number(const Check& check, TomlNode& value, const std::string& item,
   if (const Range& usual = check.row.usual_of(column); !usual.holds(value.number))
     check.diagnostics.warning(
         value.at, fmt::format("{} = {}: is unusual, usually {}{}; check number and unit", item,
-                              value.source_text, usual.span(),
-                              check.row.unit == "-" ? "" : " " + check.row.unit));
+                              value.source_text, usual.span(), unit_behind(check.row, column)));
   warn_of_radians(check, value, item);
   return true;
 }
@@ -106,11 +111,21 @@ bool check_any_numbers(const Check& check, TomlNode& value, const std::string& i
   return value.valid = valid;
 }
 
+/// Leaves the first warning of many about one list, from number `from` on.
+void tell_first(std::vector<std::string>& warnings, std::size_t from) {
+  if (warnings.size() <= from + 1) return;
+  const std::size_t more = warnings.size() - from - 1;
+  warnings.resize(from + 1);
+  warnings.back() += fmt::format("; so {} {} more of the list", more == 1 ? "is" : "are", more);
+}
+
 bool check_pairs(const Check& check, TomlNode& value, const std::string& item) {
   if (!check_list(check, value, item, "pairs of numbers")) return false;
+  const std::size_t told = check.diagnostics.warnings.size();
   bool valid = true;
   for (std::size_t i = 0; i < value.children.size(); ++i)
     valid &= check_numbers(check, value.children[i], fmt::format("{}.{}", item, i), 2, 2);
+  tell_first(check.diagnostics.warnings, told);
   return value.valid = valid;
 }
 

@@ -16,6 +16,7 @@ Rows viscous_shear_rows(const std::string& table) {
            .otherwise = "none: torque does not depend on the rate of shear",
            .instead = {"viscous"},
            .ranges = {{.least = -1e9, .most = 1e9}},
+           .usual = {{.least = -1e3, .most = 1e3}},
            .least_items = 1,
            .most_items = 8,
            .meaning = "coefficients c0, c2, c4 ... of the viscous torque of one unit cell beside "
@@ -46,6 +47,7 @@ Rows viscous_shear_rows(const std::string& table) {
            .unit = "N mm, s",
            .otherwise = "none",
            .ranges = {{.least = 1e-9, .most = 1e9}, {.least = 1e-6, .most = 1e9}},
+           .usual = {{.least = 1e-6, .most = 1e3}, {.least = 1e-4, .most = 1e6}},
            .least_items = 1,
            .most_items = 8,
            .meaning =
@@ -56,6 +58,7 @@ Rows viscous_shear_rows(const std::string& table) {
            .unit = "1/s",
            .otherwise = "not known; of viscous tables their first and last rate",
            .ranges = {rate},
+           .usual = {{.least = 1e-6, .most = 100.0}},
            .count = 2,
            .meaning = "lowest and highest rate of shear at which the law was measured; results say "
                       "where the highest is exceeded, forces do not depend on it"}};

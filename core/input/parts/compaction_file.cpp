@@ -3,6 +3,7 @@
 
 #include "core/input/keys/compaction_keys.hpp"
 #include "core/input/keys/key_member.hpp"
+#include "core/model/usual_ranges.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -68,6 +69,18 @@ struct CompactionReader {
     return curve;
   }
 
+  /// A stiffness says what it is worth only by the pressure of the densest packing.
+  void warn_of_pressure(double most) const {
+    if (most <= usual_compaction_pressure) return;
+    const TomlNode* stiffness = given(section, "stiffness");
+    diagnostics.warning(
+        stiffness->at,
+        fmt::format("{} = {}: packs it to densest by {:.4g} N/mm2, which is unusual, usually up to "
+                    "{:g} N/mm2; check number and unit",
+                    item_of(section, "stiffness"), stiffness->source_text, most,
+                    usual_compaction_pressure));
+  }
+
   ThicknessCurve by_formula() const {
     for (const char* key : {"exponent", "densest"})
       if (!is_sound(section, key)) {
@@ -85,8 +98,11 @@ struct CompactionReader {
            "give what the mould packs it to, or check thickness, surface_density, fibre_density");
       return {};
     }
-    return toll_manson(number(section, "stiffness"), number(section, "exponent"), densest, weight(),
-                       fabric.thickness);
+    const ThicknessCurve curve =
+        toll_manson(number(section, "stiffness"), number(section, "exponent"), densest, weight(),
+                    fabric.thickness);
+    warn_of_pressure(curve.pressure.back());
+    return curve;
   }
 
   bool begins_right(const ThicknessCurve& curve) const {

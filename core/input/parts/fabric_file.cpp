@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "core/input/checks/sense_checks.hpp"
 #include "core/input/keys/key_member.hpp"
+#include "core/input/keys/schema_case.hpp"
 #include "core/input/keys/sheet_laws.hpp"
 #include "core/input/keys/temperature_keys.hpp"
 #include "core/input/parts/case_parts.hpp"
@@ -151,42 +152,47 @@ void stand_in_rubber(TomlNode& root) {
   }
 }
 
+/// Reads the text of a file, called `name` in messages; `key`: the fabric's name if it gives none.
+void read_content(const std::string& content, const std::string& name, const std::string& key,
+                  MissingLaws may_miss, FabricReading& reading, Diagnostics& diagnostics) {
+  std::optional<TomlNode> root = parse_entries(content, name, diagnostics);
+  if (!root) return;
+  reading.text = content;
+  root->at.file = name;
+  reading.seams = seams_of(*root);
+  reading.by_families = root->find("family") != nullptr;
+  if (may_miss == MissingLaws::of_rubber) stand_in_rubber(*root);
+  for (const char* table : {"warp", "weft", "shear"}) {
+    if (!is_short_form(*root)) break; // has no laws of these names
+    const bool shear = std::string_view(table) == "shear";
+    if (may_miss == MissingLaws::of_yarns &&
+        stand_in(*root, table, shear ? "polynomial" : "stiffness",
+                 shear ? "[1.0]" : "1e9")) // larger than any compression_stiffness
+      reading.missing.push_back(table);
+  }
+  const TableView section{&*root, "fabrics.NAME", ""};
+  check_section(section, diagnostics);
+  Fabric fabric = read_fabric(section, key, diagnostics);
+  for (const std::string& table : reading.missing) {
+    if (table == "warp") fabric.families[0].tension = {};
+    if (table == "weft") fabric.families[1].tension = {};
+    if (table == "shear") fabric.crossings[0].shear = {};
+  }
+  if (diagnostics.errors.empty()) reading.value = std::move(fabric);
+}
+
 FabricReading read_file(const std::filesystem::path& file, MissingLaws may_miss) {
   FabricReading reading;
   Diagnostics diagnostics;
   const std::string name = file.string();
   std::string reason;
-  const std::optional<std::string> content = read_text(file, reason);
-  if (!content)
+  if (const std::optional<std::string> content = read_text(file, reason))
+    read_content(*content, name, file.stem().string(), may_miss, reading, diagnostics);
+  else
     diagnostics.error({name, 1, 1}, "", "", "the fabric file " + reason,
                       "give the path of a fabric file");
-  std::optional<TomlNode> root =
-      content ? parse_entries(*content, name, diagnostics) : std::nullopt;
-  if (root) {
-    reading.text = *content;
-    root->at.file = name;
-    reading.seams = seams_of(*root);
-    reading.by_families = root->find("family") != nullptr;
-    if (may_miss == MissingLaws::of_rubber) stand_in_rubber(*root);
-    for (const char* table : {"warp", "weft", "shear"}) {
-      if (!is_short_form(*root)) break; // has no laws of these names
-      const bool shear = std::string_view(table) == "shear";
-      if (may_miss == MissingLaws::of_yarns &&
-          stand_in(*root, table, shear ? "polynomial" : "stiffness",
-                   shear ? "[1.0]" : "1e9")) // larger than any compression_stiffness
-        reading.missing.push_back(table);
-    }
-    const TableView section{&*root, "fabrics.NAME", ""};
-    check_section(section, diagnostics);
-    Fabric fabric = read_fabric(section, file.stem().string(), diagnostics);
-    for (const std::string& table : reading.missing) {
-      if (table == "warp") fabric.families[0].tension = {};
-      if (table == "weft") fabric.families[1].tension = {};
-      if (table == "shear") fabric.crossings[0].shear = {};
-    }
-    if (diagnostics.errors.empty()) reading.value = std::move(fabric);
-  }
   reading.errors = std::move(diagnostics.errors);
+  reading.warnings = std::move(diagnostics.warnings);
   return reading;
 }
 
@@ -198,6 +204,27 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
 
 FabricReading read_rubber_file(const std::filesystem::path& file) {
   return read_file(file, MissingLaws::of_rubber);
+}
+
+FabricReading read_fabric_text(const std::string& text, const std::string& name, bool rubber) {
+  FabricReading reading;
+  Diagnostics diagnostics;
+  read_content(text, name, name, rubber ? MissingLaws::of_rubber : MissingLaws::of_yarns, reading,
+               diagnostics);
+  reading.errors = std::move(diagnostics.errors);
+  reading.warnings = std::move(diagnostics.warnings);
+  return reading;
+}
+
+Diagnostics check_friction_text(const std::string& text, const std::string& name) {
+  Diagnostics diagnostics;
+  std::optional<TomlNode> root = parse_entries(text, name, diagnostics);
+  if (!root) return diagnostics;
+  const TableView file{&*root, "", ""};
+  for (const TableView& law : subsections(file, "friction"))
+    check_section(law, diagnostics);
+  read_friction_laws(file, diagnostics);
+  return diagnostics;
 }
 
 std::string table_of_law(const FabricReading& reading, const std::string& short_form) {

@@ -23,10 +23,11 @@ struct SeamReading {
 struct FabricReading {
   std::optional<Fabric> value; ///< only when there is no error
   std::vector<CaseError> errors;
-  std::vector<std::string> missing; ///< those of "warp", "weft", "shear" that have no law
-  std::string text;                 ///< of the file
-  bool by_families = false;         ///< whether it has [[family]] in the place of warp and weft
-  std::vector<SeamReading> seams;   ///< in the order of the file
+  std::vector<std::string> warnings; ///< numbers that are unusual
+  std::vector<std::string> missing;  ///< those of "warp", "weft", "shear" that have no law
+  std::string text;                  ///< of the file
+  bool by_families = false;          ///< whether it has [[family]] in the place of warp and weft
+  std::vector<SeamReading> seams;    ///< in the order of the file
 };
 
 /// Reads and checks a fabric file by the rules of case files. With `laws_may_miss` the laws of
@@ -36,6 +37,13 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
 
 /// Likewise of a sheet of rubber, whose law may be missing: some law then stands for it.
 FabricReading read_rubber_file(const std::filesystem::path& file);
+
+/// The same of a text that such a file is to have, called `name` in messages. `rubber`: by the
+/// rules of read_rubber_file.
+FabricReading read_fabric_text(const std::string& text, const std::string& name, bool rubber);
+
+/// Errors and unusual numbers of a text with [friction.NAME] tables, as a case has them.
+Diagnostics check_friction_text(const std::string& text, const std::string& name);
 
 /// A law as text for a fabric file.
 struct LawText {

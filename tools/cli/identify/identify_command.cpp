@@ -3,6 +3,7 @@
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
+#include "tools/cli/identify/identify_ranges.hpp"
 #include "tools/cli/identify/identify_rates.hpp"
 #include "tools/cli/identify/identify_rubber.hpp"
 #include "tools/cli/progress_line.hpp"
@@ -33,9 +34,11 @@ BothKinds both_kinds(const IdentifyArguments& a, Diagnostics& diagnostics) {
   other.curves = a.others;
   BothKinds both{curves_of(a, diagnostics), curves_of(other, diagnostics)};
   for (Curve& curve : both.others)
-    if (!curve.angle.empty() && curve.angle.back() < 0.0)
+    if (!curve.angle.empty() && curve.angle.back() < 0.0) {
+      curve.angle_written.factor *= -1.0;
       for (double& angle : curve.angle)
         angle = -angle;
+    }
   return both;
 }
 
@@ -129,14 +132,20 @@ bool stands_beside(const std::string& key) {
          key == "c1" || key == "c2";
 }
 
-void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
-                      const FabricReading& base, Identified result) {
-  std::string text = base.text;
-  for (LawText& law : result.laws) {
+/// The fabric file with what was identified.
+std::string text_of(const IdentifyArguments& a, const FabricReading& base, const Identified& result,
+                    Diagnostics& diagnostics) {
+  std::vector<LawText> laws = result.laws;
+  for (LawText& law : laws) {
     law.table = table_of_law(base, law.table);
     if (!stands_beside(law.key)) law.comment = comment_of(a, *base.value, result);
-    text = with_law(text, law);
   }
+  return fabric_text(a, base, laws, diagnostics);
+}
+
+void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
+                      const FabricReading& base, const Identified& result,
+                      const std::string& text) {
   write_whole(fit_file, result.fit);
   write_whole(a.output, text);
   fmt::print("{} of {} from {}\n", result.title, base.value->name, files_of(a));
@@ -212,12 +221,13 @@ int identify_command(const IdentifyArguments& arguments) {
                  ? identify_rubber_curves(arguments, *base.value, kinds.curves, kinds.others,
                                           options, diagnostics)
                  : identify(arguments, base, test, kinds.curves, options, diagnostics);
+  const std::string text = result ? text_of(arguments, base, *result, diagnostics) : "";
   const bool refused = print_diagnostics(diagnostics);
   if (may_be_reported(arguments, diagnostics))
     write_report(arguments, fit.string(), base, refused ? std::nullopt : result, diagnostics);
   if (refused) return exit_case_wrong;
   if (!result) throw std::logic_error("no law and no reason for it");
-  write_and_report(arguments, fit, base, *result);
+  write_and_report(arguments, fit, base, *result, text);
   return exit_done;
 }
 

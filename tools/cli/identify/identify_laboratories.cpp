@@ -5,6 +5,7 @@
 #include "base/write_whole.hpp"
 #include "core/identify/laboratories.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
+#include "tools/cli/identify/identify_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -176,6 +177,10 @@ std::string table_of(const ShearLaw& law) {
   return rows + "\n]";
 }
 
+LawText law_text(const FabricReading& base, const DeviatedLaw& law) {
+  return {table_of_law(base, "shear"), "table", table_of(law.law), {}};
+}
+
 /// Over the shear angle; cells are empty beyond a laboratory's range.
 std::string csv_of(const LaboratoryMean& mean) {
   std::string text = "shear_deg,mean_Nmm,between_Nmm,within_Nmm,laboratories";
@@ -211,7 +216,9 @@ void write_fabric(const Deviated& deviated, const IdentifyArguments& a, const Fa
     comment.insert(comment.begin() + 3, fmt::format("{};", cut));
     fmt::print("  {}: {}\n", deviated.file.filename().string(), cut);
   }
-  write_whole(deviated.file, with_law(base.text, {"shear", "table", table_of(law.law), comment}));
+  LawText text = law_text(base, law);
+  text.comment = comment;
+  write_whole(deviated.file, with_law(base.text, text));
 }
 
 bool check_laboratories(const IdentifyArguments& a, const fs::path& table,
@@ -272,8 +279,13 @@ int identify_laboratories(const IdentifyArguments& a, const fs::path& table,
                    [&found](const Found& f) { return f.laboratory != found.front().laboratory; }))
     option_error("--skip-refused", "", "leaves less than two laboratories",
                  "look at what is said of each curve", diagnostics);
+  LaboratoryMean mean;
+  if (diagnostics.errors.empty()) {
+    mean = mean_of(found);
+    for (const Deviated& deviated : deviated_files(a.output))
+      fabric_text(a, base, {law_text(base, deviated_law(mean, deviated.deviations))}, diagnostics);
+  }
   if (print_diagnostics(diagnostics)) return exit_case_wrong;
-  const LaboratoryMean mean = mean_of(found);
   std::vector<std::string> lines{scatter_line(mean)};
   lines.insert(lines.end(), test.assumed.begin(), test.assumed.end());
   for (const double angle : told_angles(mean))

@@ -3,6 +3,7 @@
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "core/identify/fit_pull_out.hpp"
+#include "tools/cli/identify/identify_ranges.hpp"
 #include "tools/cli/identify/identify_rates.hpp"
 
 #include <cmath>
@@ -128,6 +129,9 @@ int identify_pull_out_command(const IdentifyArguments& a) {
                                            a.points.value_or(0), diagnostics)) {
       result = pull_out_text(a, *fit);
       toml = friction_toml(a, *fit);
+      const Diagnostics held = check_friction_text(toml, a.output);
+      hold_to_keys(held.errors, held.warnings, {"friction." + a.name},
+                   {curve_argument(a.curves.front()).file, 1, 1}, diagnostics);
     }
   const bool refused = print_diagnostics(diagnostics);
   if (report) write_report(a, fit_file.string(), {}, refused ? std::nullopt : result, diagnostics);
