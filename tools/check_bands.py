@@ -16,6 +16,8 @@ first is taken for
 the Richardson extrapolation of the two with the order of the mesh, whose error is the largest. Those
 of inertia (p = 3) and softening (p = 1) are smaller; of them e is 1.3 times too large or 0.75.
 
+Forces that are given and draw-ins that are held are left out.
+
 DIR [results/NAME of SCENES.toml] gets a folder a run, and bands.csv with a row a figure. What has
 ended is not repeated: the same command goes on after any stop. --table runs nothing. --doc fills
 the table into a text in Markdown, between <!-- table: NAME --> and <!-- end -->.
@@ -48,6 +50,7 @@ except ImportError as error:
 
 ORDER = 1.6                               # p, core/verification/bands.hpp
 HALVED = {"blanks.*.element_size": 0.5, "solver.duration": 2.0, "solver.fibre_softening": 0.5}
+NOT_ASKED = ("given", "held")             # reasons for no band, core/verification/no_band.cpp
 KINDS = {"shear": "angles", "force": "forces", "draw-in": "draw-ins", "largest": "compressions"}
 
 
@@ -78,6 +81,11 @@ class Figure:
     @property
     def kind(self) -> str:
         return KINDS[self.name.split(" ", 1)[0]]
+
+    @property
+    def beyond(self) -> bool:
+        """Whether the band is wider than the figure: it says nothing."""
+        return self.band is not None and not self.band <= abs(self.value)
 
     @property
     def inside(self) -> bool:
@@ -239,7 +247,8 @@ def figures_of(program: Path, first: Run, second: Run) -> list[Figure]:
     try:
         return [Figure(first.scene.name, figure["name"], figure["unit"], figure["value"],
                        figure["band"], apart[figure["name"]] / (1.0 - 2.0**-ORDER))
-                for figure in one["verification"]["figures"] if figure["name"] in apart]
+                for figure in one["verification"]["figures"]
+                if figure["name"] in apart and not figure.get("no_band", "").startswith(NOT_ASKED)]
     except KeyError as problem:
         raise Trouble(f"{first.folder}: its bands, or the other run, lack {problem}") from problem
 
@@ -277,9 +286,14 @@ def markdown(figures: list[Figure]) -> str:
     asked = [f for f in figures if f.kind in ("angles", "forces")]
     known = [f for f in asked if f.band is not None]
     share = 100.0 * sum(f.inside for f in known) / len(known) if known else float("nan")
+    banded = [f for f in figures if f.band is not None]
     lines = [table(head, rows, 1),
              f"Of angles and forces {share:.0f} % are "
              f"inside; the band is {ratio(known):.1f} times the error in the median."]
+    if banded:
+        lines[-1] += (f" Of all {len(banded)} figures with a band "
+                      f"{100.0 * sum(f.inside for f in banded) / len(banded):.0f} % are inside; "
+                      f"{sum(f.beyond for f in banded)} have a band beyond the figure.")
     if without := len(asked) - len(known):
         lines[-1] += f" {without} of {len(asked)} have no band."
     if outside := [f for f in figures if f.band is not None and not f.inside]:

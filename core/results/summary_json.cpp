@@ -252,6 +252,7 @@ Json figure_object(const VerifiedFigure& f) {
                  {"inertia", part(f.inertia)},
                  {"softening", part(f.softening)},
                  {"chance", part(f.chance)}};
+  if (!f.no_band.empty()) object["no_band"] = f.no_band;
   if (const std::vector<std::string> missing = unmeasured(f); !missing.empty())
     object["unmeasured"] = missing;
   return object;

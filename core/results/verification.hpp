@@ -25,8 +25,9 @@ struct VerifiedFigure {
   /// A force has errors with signs, above 0: it is too large; of others they are magnitudes.
   bool force = false;
   /// The error is thought to be no larger, in 95 of 100 figures. Of shear: root mean square of the
-  /// difference in shear angle over the ply. Nothing if any part was not measured.
+  /// difference in shear angle over the ply. Nothing if any part was not measured, or as below.
   ErrorPart band = std::nullopt;
+  std::string no_band = {}; ///< a clause: why it has none though its parts may be measured
   // What each cause adds to the error, before any factor of safety; `chance` of two equal runs
   ErrorPart mesh = std::nullopt, inertia = std::nullopt, softening = std::nullopt,
             chance = std::nullopt;

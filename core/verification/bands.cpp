@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <functional>
 
 namespace plyform {
@@ -19,10 +20,10 @@ struct Factors {
 /// field: of a root mean square over a ply, not of a number.
 Factors factors_of(const Siblings& made, double of_inertia, bool field) {
   Factors f;
-  const double b = std::pow(made.coarsening, order_of_mesh);
+  const double b = std::pow(made.coarsening, made.resolved ? order_of_mesh : order_outside_premise);
   if (b > 1.0) f.mesh = 1.0 / (b - 1.0);
   if (b < 1.0) f.mesh = 1.0 / (1.0 - b);
-  if (b < 1.0 && field) f.mesh = std::sqrt(f.mesh / std::hypot(1.0, b));
+  if (b < 1.0 && field && made.resolved) f.mesh = std::sqrt(f.mesh / std::hypot(1.0, b));
   f.inertia = of_inertia;
   f.softening = std::abs(made.softening);
   return f;
@@ -58,16 +59,32 @@ Compared compared(Cause cause, const RunEnd& run, const Ends& siblings, const Si
   return {};
 }
 
+bool is_pushed(const RunEnd& run, std::size_t tool) {
+  return tool < run.motions.size() && run.motions[tool] == Motion::force;
+}
+
+/// The largest force of a driven tool; without one, of any that is not pushed. N.
+double largest_force(const RunEnd& run) {
+  double driven = 0.0, any = 0.0;
+  for (std::size_t t = 0; t < run.last.tools.size(); ++t) {
+    if (is_pushed(run, t)) continue;
+    const double force = std::abs(run.last.tools[t].force_N);
+    any = std::max(any, force);
+    if (t < run.motions.size() && run.motions[t] == Motion::driven)
+      driven = std::max(driven, force);
+  }
+  return driven > 0.0 ? driven : any;
+}
+
 /// Error over difference by (1) of bands.hpp, of the force of which speed has left the least.
 double factor_of_forces(const RunEnd& one, const RunEnd& other, double speed) {
   constexpr double counts = 0.05; // of the largest force: smaller ones are jitter
   constexpr double thrown = 1.5;  // of its own: no loss, but plies that are thrown against a tool
-  double largest = 0.0;
-  for (const ToolFrame& tool : one.last.tools)
-    largest = std::max(largest, std::abs(tool.force_N));
+  const double largest = largest_force(one);
   double left = 1.0, grown = 1.0;
   for (std::size_t t = 0; t < one.last.tools.size(); ++t)
-    if (const double force = one.last.tools[t].force_N; std::abs(force) > counts * largest) {
+    if (const double force = one.last.tools[t].force_N;
+        !is_pushed(one, t) && std::abs(force) > counts * largest) {
       left = std::min(left, other.last.tools[t].force_N / force);
       grown = std::max(grown, other.last.tools[t].force_N / force);
     }
@@ -120,8 +137,11 @@ void estimate(VerifiedFigure& figure, const RunEnd& run, const Ends& siblings, c
 constexpr std::array parts{&VerifiedFigure::mesh, &VerifiedFigure::inertia,
                            &VerifiedFigure::softening, &VerifiedFigure::chance};
 
-/// Replaces each part by its root mean square over figures of one kind.
-void pool(std::vector<VerifiedFigure>& figures) {
+/// Replaces each part by its root mean square over figures of one kind, those that may have bands.
+void pool(std::vector<VerifiedFigure>& all) {
+  std::vector<std::reference_wrapper<VerifiedFigure>> figures;
+  for (VerifiedFigure& f : all)
+    if (f.no_band.empty()) figures.emplace_back(f);
   for (ErrorPart VerifiedFigure::*part : parts) {
     double sum2 = 0.0;
     for (const VerifiedFigure& f : figures)
@@ -183,14 +203,23 @@ VerifiedFigure figure_of_shear(const std::string& of, const RunEnd& run, const E
 
 } // namespace
 
-void set_band(VerifiedFigure& f) {
-  f.band.reset();
-  if (!unmeasured(f).empty()) return;
+ErrorPart width_of_band(const VerifiedFigure& f) {
+  if (!unmeasured(f).empty()) return std::nullopt;
   const double squares = std::sqrt(*f.mesh * *f.mesh + *f.inertia * *f.inertia +
                                    *f.softening * *f.softening + *f.chance * *f.chance);
   double error = squares;
   if (f.force) error = std::max(squares, sum_with_signs(f));
-  f.band = std::max({safety * error, safety_of_jitter * f.jitter, safety_of_chance * *f.chance});
+  return std::max({safety * error, safety_of_jitter * f.jitter, safety_of_chance * *f.chance});
+}
+
+void set_band(VerifiedFigure& f) {
+  f.band = width_of_band(f);
+  f.no_band.clear();
+  if (!f.band || *f.band <= std::abs(f.value)) return;
+  f.no_band = std::isfinite(*f.band)
+                  ? fmt::format("its error may be {:.2g} {}, more than all of it", *f.band, f.unit)
+                  : "its error is not known";
+  f.band.reset();
 }
 
 double force_jitter(const Case& data, const Frame& last) {
@@ -230,20 +259,23 @@ VerifiedFigure verified_shear(const RunEnd& run, const Ends& siblings, const Sib
 
 namespace {
 
-/// Takes the bands from forces that are contact's stiffness, not the cloth's: what siblings agree
-/// on there is no error of it.
-void leave_out_unknown(std::vector<VerifiedFigure>& forces, const RunEnd& run) {
-  for (std::size_t t = 0; t < std::min(forces.size(), run.known_forces.size()); ++t)
-    if (!run.known_forces[t].to_end()) {
-      for (ErrorPart VerifiedFigure::*part : parts)
-        (forces[t].*part).reset();
-      forces[t].band.reset();
-    }
+/// What siblings agree on there is no error of it.
+void leave_out(VerifiedFigure& f, const std::string& why) {
+  for (ErrorPart VerifiedFigure::*part : parts)
+    (f.*part).reset();
+  f.no_band = why;
 }
 
-} // namespace
+/// Why the figure of this number has no band, if it is known to have none.
+std::string why_none(const std::vector<std::string>& of, std::size_t number) {
+  return number < of.size() ? of[number] : "";
+}
 
-namespace {
+std::string why_no_force(const RunEnd& run, std::size_t tool) {
+  if (tool < run.known_forces.size() && !run.known_forces[tool].to_end())
+    return "not known: it is contact's stiffness, not the cloth's";
+  return why_none(run.no_band.force, tool);
+}
 
 /// Takes the parts from a force that both runs compared have lost: that they agree shows nothing.
 void leave_out_lost(VerifiedFigure& f, std::size_t tool, const RunEnd& run, const Ends& siblings,
@@ -276,6 +308,7 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& sibl
       estimate(f, run, siblings, made, [p](const RunEnd& a, const RunEnd& b) {
         return a.plies[p].draw_in.mean() - b.plies[p].draw_in.mean();
       });
+      if (const std::string why = why_none(run.no_band.draw_in, p); !why.empty()) leave_out(f, why);
     }
     if (run.plies[p].pressed) {
       const auto largest = [p](const RunEnd& r) {
@@ -286,6 +319,7 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& sibl
       f.value = largest(run);
       estimate(f, run, siblings, made,
                [&](const RunEnd& a, const RunEnd& b) { return largest(a) - largest(b); });
+      if (const std::string why = why_none(run.no_band.pressed, p); !why.empty()) leave_out(f, why);
     }
   }
   std::vector<VerifiedFigure> force;
@@ -294,6 +328,10 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& sibl
     f.name = "force of " + run.last.tools[t].name, f.unit = "N", f.force = true;
     f.jitter = run.jitter_N;
     f.value = run.last.tools[t].force_N;
+    if (const std::string why = why_no_force(run, t); !why.empty()) {
+      leave_out(f, why);
+      continue;
+    }
     estimate(f, run, siblings, made, [t](const RunEnd& a, const RunEnd& b) {
       return a.last.tools[t].force_N - b.last.tools[t].force_N;
     });
@@ -301,6 +339,7 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& sibl
       leave_out_lost(f, t, run, siblings, made);
       continue;
     }
+    f.jitter = std::max(f.jitter, std::abs(f.value - run.balance_N[t]));
     VerifiedFigure by_balance = f;
     estimate(by_balance, run, siblings, made,
              [t](const RunEnd& a, const RunEnd& b) { return a.balance_N[t] - b.balance_N[t]; });
@@ -310,8 +349,7 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& sibl
   pool(pressed);
   for (std::vector<VerifiedFigure>* kind : {&draw_in, &pressed, &force})
     for (VerifiedFigure& f : *kind)
-      set_band(f);
-  leave_out_unknown(force, run);
+      if (f.no_band.empty()) set_band(f);
   for (const std::vector<VerifiedFigure>* kind : {&shear, &draw_in, &pressed, &force})
     all.insert(all.end(), kind->begin(), kind->end());
   return all;

@@ -16,6 +16,8 @@
 // it is unknown and taken for d / (q - 1). b < 1, of a finer mesh: d / (1 - b^p), if both err
 // alike; fields of shear do so in part, and take the geometric mean of that and of d / sqrt(1 +
 // b^2p), if the errors are independent (two stacks differed by as much at a factor of 1.3 as at 2).
+// Where the mesh does not resolve what bends the plies (resolves_all of no_band.hpp) errors fall no
+// faster than with h: p = 1, and fields err alike.
 // A part without a sibling is not measured, and a figure without all parts has no band; of shear
 // what is predicted for mesh and softening may stand in, and the verification says so.
 //   of shear and lengths  e = sqrt(mesh^2 + inertia^2 + softening^2 + chance^2)
@@ -30,14 +32,21 @@
 // may a single force: at the end the forces of all tools are in balance, what one carries is what
 // the others do, and each part of its error is the root mean square of both. So is their sum: each
 // estimate adds up its own parts, as signs of one say nothing of the other. Not that of a tool
-// pushed by a force, which it keeps, nor where boundaries carry, too. Jitter: what a tool pushed by
-// a force has on its face beyond that force.
+// pushed by a force, which it keeps, nor where boundaries carry, too. Jitter: what the solver does
+// to a force: the most that a tool pushed by a force has on its face beyond it, and what the tool
+// lacks of the balance of all.
+//
+// No band have, whatever siblings agree on, the figures of core/verification/no_band.hpp, nor one
+// whose band would be wider than the figure: it would say nothing. Those that are given or held
+// count in no mean, and the force left by speed is looked for among the others, of which a tool
+// that stays carries what the pushed ones are given, too.
 #pragma once
 
 #include "core/accuracy/error_model.hpp"
 #include "core/accuracy/error_numbers.hpp"
 #include "core/results/frame.hpp"
 #include "core/results/summary.hpp"
+#include "core/verification/no_band.hpp"
 #include "core/verification/siblings.hpp"
 
 #include <map>
@@ -60,6 +69,8 @@ struct RunEnd {
   std::vector<double> balance_N = {};
   bool flies = false;                        ///< a ply, at the end
   std::vector<KnownForce> known_forces = {}; ///< as in Summary
+  NoBand no_band = {};                       ///< of no tool and ply: not known
+  std::vector<Motion> motions = {};          ///< of the tools; empty: not known
 };
 
 using Ends = std::map<Cause, RunEnd>;
@@ -80,7 +91,10 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& sibl
 VerifiedFigure verified_shear(const RunEnd& run, const Ends& siblings, const Siblings& made,
                               const PredictedError& predicted);
 
-/// Sets the band from the parts, or none if any is missing.
+/// What the parts make of a band, however wide; nothing if any is missing.
+ErrorPart width_of_band(const VerifiedFigure& figure);
+
+/// Sets that band, or why there is none: it would be wider than the figure.
 void set_band(VerifiedFigure& figure);
 
 } // namespace plyform

@@ -76,11 +76,12 @@ CorrectedCase corrected_case(const Case& data, const Verification& verification,
   CorrectedCase corrected{data, {}};
   AskedAccuracy& asked = corrected.asked;
   const VerifiedFigure& shear = verification.shear;
+  const ErrorPart measured = width_of_band(shear);
   asked.wanted_deg = data.accuracy.shear_error / degree;
   asked.measured_deg = asked.expected_deg =
-      shear.band.value_or(std::numeric_limits<double>::quiet_NaN());
+      measured.value_or(std::numeric_limits<double>::quiet_NaN());
   if (asked.kept()) return corrected;
-  if (!shear.band) {
+  if (!measured) {
     asked.why_not = "the shear has no band, as a part of its error was not measured";
     return corrected;
   }
@@ -99,8 +100,7 @@ CorrectedCase corrected_case(const Case& data, const Verification& verification,
       std::max(factor(of_softening, 1.0), std::min(1.0 / data.solver.fibre_softening, 1.0));
   VerifiedFigure after = shear;
   scale(after, asked);
-  set_band(after);
-  asked.expected_deg = *after.band;
+  asked.expected_deg = *width_of_band(after);
   for (BlankSpec& blank : corrected.data.blanks)
     scale_elements(blank, asked.element_size);
   corrected.data.solver.duration *= asked.duration;
@@ -122,11 +122,11 @@ Verification after_correction(const Verification& first, const AskedAccuracy& as
                                    [&](const VerifiedFigure& n) { return n.name == f.name; });
     if (same != now.end()) f.value = same->value, f.jitter = same->jitter;
     scale(f, asked, first_run.flies);
-    set_band(f);
+    if (unmeasured(f).empty()) set_band(f);
   }
   scale(all.shear, asked, first_run.flies);
-  set_band(all.shear);
   all.shear.value = verified_shear(second, {}, {}, {}).value;
+  set_band(all.shear);
   all.asked->moved_deg = shear_error(first_run.last, second.last).rms;
   return all;
 }

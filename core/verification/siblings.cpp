@@ -4,8 +4,8 @@
 #include "core/accuracy/cost_parameters.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/mesh/mesh_variants.hpp"
-#include "core/model/bending_resolution.hpp"
 #include "core/model/boundary.hpp"
+#include "core/verification/no_band.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,20 +16,15 @@
 namespace plyform {
 namespace {
 
-constexpr double fewest_in_layer = 1.8;   // elements
 constexpr double finer_by = 1.0 / 1.3;    // b where the mesh cannot be coarser
 constexpr double most_cost = 1.2;         // of the run's work: 1.2 times as much of its time
 constexpr double work_of_elements = -2.7; // exponent of the element size, core/accuracy
 
 using Meshes = std::vector<BlankMesh>;
 
-/// Whether elements larger by this factor still resolve the transition zones of every ply.
-bool resolves_bending(const Case& data, double by) {
-  return std::all_of(data.plies.begin(), data.plies.end(), [&](const Ply& ply) {
-    const BendingLengths lengths = bending_lengths(data.fabrics[ply.fabric], 0.0);
-    const double size = by * data.blanks[ply.blank].element_size;
-    return !lengths.layer || *lengths.layer >= fewest_in_layer * size;
-  });
+bool all_resolve_bending(const Case& data, double by) {
+  return std::all_of(data.plies.begin(), data.plies.end(),
+                     [&](const Ply& ply) { return resolves_bending(data, ply, by); });
 }
 
 /// Side of a square of two triangles, mm.
@@ -201,10 +196,11 @@ void add_finer(Siblings& siblings, const Case& data, const Meshes& own,
 Siblings siblings_of(const Case& data, const std::vector<BlankMesh>& meshes) {
   const Meshes own = meshes.empty() ? meshes_of(data) : meshes;
   Siblings siblings;
+  siblings.resolved = resolves_all(data, own);
   Case free_of_boundaries = data; // whose nodes are looked at below
   free_of_boundaries.boundaries.clear();
   for (const double by : {1.4, 1.3, 1.2}) {
-    if (!may_coarsen(free_of_boundaries, by) || !resolves_bending(data, by)) continue;
+    if (!may_coarsen(free_of_boundaries, by) || !all_resolve_bending(data, by)) continue;
     const std::optional<OtherMesh> coarse = with_elements(data, own, by);
     if (!coarse) continue;
     siblings.coarsening = by;

@@ -5,6 +5,7 @@
 #include "core/results/field_difference.hpp"
 #include "core/solver/scene.hpp"
 #include "core/verification/bands.hpp"
+#include "core/verification/no_band.hpp"
 #include "core/verification/siblings.hpp"
 
 #include <algorithm>
@@ -19,13 +20,22 @@ namespace {
 // meshes and short runs have more to prepare.
 constexpr double most_work = 1.25;
 
+std::vector<Motion> motions_of(const Case& data) {
+  std::vector<Motion> motions;
+  for (const Tool& tool : data.tools)
+    motions.push_back(tool.motion);
+  return motions;
+}
+
 RunEnd end_of(const Case& data, const RunResult& run) {
   return {run.last,
           run.summary.plies,
           force_jitter(data, run.last),
           forces_by_balance(data, run.last),
           run.summary.flies,
-          run.summary.known_forces};
+          run.summary.known_forces,
+          figures_without_band(data, run.last),
+          motions_of(data)};
 }
 
 /// Work of a run: triangles times steps.

@@ -40,12 +40,14 @@ else:
         sys.exit("plyform: made-up trouble")
     force = 100.0 + 10.0 * (float(settings.get("blanks.a.element_size", "4")) / 4.0) ** 1.6
     told = {"status": "done", "message": "", "steps": 7,
-            "tools": [{"name": "punch", "force_N": force}],
+            "tools": [{"name": "punch", "force_N": force}, {"name": "holder", "force_N": 60.0}],
             "plies": [{"name": "lower", "draw_in_mm": {"mean": 3.0}}]}
     if "--verify" in words:
         told["verification"] = {"figures": [
             {"name": "shear of lower", "unit": "deg", "value": 30.0, "band": 4.0},
             {"name": "force of punch", "unit": "N", "value": force, "band": 9.0},
+            {"name": "force of holder", "unit": "N", "value": 60.0, "band": None,
+             "no_band": "given: it is what pushes the tool"},
             {"name": "draw-in of lower", "unit": "mm", "value": 3.0, "band": None}]}
     folder = Path(words[words.index("-o") + 1])
     folder.mkdir(parents=True, exist_ok=True)
@@ -102,6 +104,8 @@ def main() -> None:
         assert abs(float(rows["force of punch"]["error"]) - 10.0) < 1e-9, rows
         assert rows["force of punch"]["inside"] == "0", rows
         assert rows["draw-in of lower"]["band"] == "", rows  # not measured
+        assert "force of holder" not in rows  # given: counts for none
+        assert "Of all 2 figures with a band 50 % are inside; 0 have a band beyond" in done.stdout, done
         filled = text.read_text(encoding="utf-8")
         assert filled.startswith("before\n") and filled.endswith("after\n"), filled
         assert "old" not in filled and "Outside: as it is, force of punch" in filled, filled

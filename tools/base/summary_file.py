@@ -16,7 +16,7 @@ POINT = [NUMBER] * 3
 WALKS = {"mean": NUMBER, "spread": NUMBER, "directions_deg": FOUR, "each": FOUR}
 BODY = {"name": TEXT, "force_N": NUMBER, "force_raw_N": NUMBER, "displacement_mm": NUMBER,
         "force_known_to_s": NUMBER, "speed_mm_s": NUMBER}
-FIGURE = {"name": TEXT, "unit": TEXT, "value": NUMBER, "band": NUMBER}
+FIGURE = {"name": TEXT, "unit": TEXT, "value": NUMBER, "band": NUMBER, "no_band": TEXT}
 STITCH = {"name": TEXT, "largest_broken_patch_at_mm": POINT,
           **dict.fromkeys(("broken_length_share", "broken_area_mm2", "largest_broken_patch_mm2"),
                           NUMBER)}

@@ -19,6 +19,10 @@ std::string part_text(const ErrorPart& part) {
 }
 
 void print_figure(const VerifiedFigure& f) {
+  if (!f.no_band.empty()) {
+    fmt::print("    {:32} {:8.4g} {:3} has no band: {}\n", f.name, f.value, f.unit, f.no_band);
+    return;
+  }
   fmt::print("    {:32} {:8.4g} {:3} {}: mesh {}, inertia {}, softened fibres {}, chance {}\n",
              f.name, f.value, f.unit,
              f.band ? fmt::format("+- {:.2g}", *f.band) : std::string("has no band"),

@@ -12,11 +12,9 @@ TEST(Bands, OfForcesAddUpWithTheirSigns) {
   VerifiedFigure f;
   f.force = true;
   f.mesh = 3.0, f.inertia = 4.0, f.softening = 0.0, f.chance = 0.0;
-  set_band(f);
-  EXPECT_NEAR(f.band.value(), safety * 7.0, 1e-12);
+  EXPECT_NEAR(width_of_band(f).value(), safety * 7.0, 1e-12);
   f.inertia = -4.0; // what cancels may do so by accident
-  set_band(f);
-  EXPECT_NEAR(f.band.value(), safety * 5.0, 1e-12);
+  EXPECT_NEAR(width_of_band(f).value(), safety * 5.0, 1e-12);
 }
 
 TEST(Bands, OfForcesTakeTheirOwnErrorAndThatOfAllOthers) {
@@ -80,8 +78,7 @@ TEST(Bands, OfForcesAreNotBelowTheJitterOfAPushedTool) {
   VerifiedFigure f;
   f.force = true, f.jitter = run.jitter_N;
   f.mesh = f.inertia = f.softening = f.chance = 0.0;
-  set_band(f);
-  EXPECT_NEAR(f.band.value(), safety_of_jitter * 0.5, 1e-12);
+  EXPECT_NEAR(width_of_band(f).value(), safety_of_jitter * 0.5, 1e-12);
 }
 
 /// The part of inertia in the force of a punch, 100 N, which is `fast` in half of the time, beside
@@ -133,11 +130,9 @@ TEST(Bands, OfForcesAddUpSignsWithinOneEstimate) {
   f.force = true;
   f.mesh = 3.0, f.inertia = 3.0, f.softening = 0.0, f.chance = 0.0;
   f.estimates = {{3.0, -3.0, 0.0}, {3.0, 3.0, 0.0}}; // 0 and 6
-  set_band(f);
-  EXPECT_NEAR(f.band.value(), safety * std::sqrt(18.0), 1e-12);
+  EXPECT_NEAR(width_of_band(f).value(), safety * std::sqrt(18.0), 1e-12);
   f.estimates = {{3.0, 3.0, 0.0}, {-3.0, -3.0, 0.0}}; // 6 and -6
-  set_band(f);
-  EXPECT_NEAR(f.band.value(), safety * 6.0, 1e-12);
+  EXPECT_NEAR(width_of_band(f).value(), safety * 6.0, 1e-12);
 }
 
 } // namespace
