@@ -16,8 +16,12 @@ TEST(TimeLeft, OfWorkThatSlowsDownIsRightWithinHalfAndFalls) {
   for (int second = 1; second < 250; ++second) {
     left.show(second, second <= 50 ? second / 100.0 : 0.5 + (second - 50) / 400.0);
     const double told = left.left(second).value_or(-1.0), right = whole - second;
-    if (second == 1) EXPECT_EQ(told, -1.0); // too little is done
-    if (second == 50) EXPECT_NEAR(told, 50.0, 1.0);
+    if (second == 1) {
+      EXPECT_EQ(told, -1.0); // too little is done
+    }
+    if (second == 50) {
+      EXPECT_NEAR(told, 50.0, 1.0);
+    }
     if (second > 110) {
       EXPECT_LE(told, 1.5 * right) << second;
       EXPECT_GE(told, right / 1.5) << second;
