@@ -16,8 +16,9 @@
 // it is unknown and taken for d / (q - 1). b < 1, of a finer mesh: d / (1 - b^p), if both err
 // alike; fields of shear do so in part, and take the geometric mean of that and of d / sqrt(1 +
 // b^2p), if the errors are independent (two stacks differed by as much at a factor of 1.3 as at 2).
-// Where the mesh does not resolve what bends the plies (resolves_all of no_band.hpp) errors fall no
-// faster than with h: p = 1, and fields err alike.
+// Where the mesh does not resolve what bends the plies (resolves_all of no_band.hpp), and where
+// pressures or closed moulds press them all over, errors fall no faster than with h: p = 1, and
+// fields err alike.
 // A part without a sibling is not measured, and a figure without all parts has no band; of shear
 // what is predicted for mesh and softening may stand in, and the verification says so.
 //   of shear and lengths  e = sqrt(mesh^2 + inertia^2 + softening^2 + chance^2)

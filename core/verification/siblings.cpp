@@ -64,6 +64,14 @@ Meshes meshes_of(const Case& data) {
   return meshes;
 }
 
+/// Whether a pressure or a closed mould forms plies, on the whole of their faces.
+bool pressed_all_over(const Case& data) {
+  return !data.loads.empty() ||
+         std::any_of(data.plies.begin(), data.plies.end(), [&](const Ply& ply) {
+           return data.fabrics[ply.fabric].compaction.has_value();
+         });
+}
+
 struct OtherMesh {
   Case data;
   Meshes meshes;
@@ -196,7 +204,7 @@ void add_finer(Siblings& siblings, const Case& data, const Meshes& own,
 Siblings siblings_of(const Case& data, const std::vector<BlankMesh>& meshes) {
   const Meshes own = meshes.empty() ? meshes_of(data) : meshes;
   Siblings siblings;
-  siblings.resolved = resolves_all(data, own);
+  siblings.resolved = resolves_all(data, own) && !pressed_all_over(data);
   Case free_of_boundaries = data; // whose nodes are looked at below
   free_of_boundaries.boundaries.clear();
   for (const double by : {1.4, 1.3, 1.2}) {

@@ -47,8 +47,9 @@ struct Siblings {
   std::vector<Sibling> runs; ///< in the order above
   /// b, of the mesh's sibling over what it is compared with; 1: there is none.
   double coarsening = 1.0;
-  bool resolved = true; ///< resolves_all (no_band.hpp) of the run's mesh
-  double speed = 2.0;   ///< q
+  /// resolves_all (no_band.hpp) of the run's mesh, and no pressure or closed mould forms plies.
+  bool resolved = true;
+  double speed = 2.0; ///< q
   /// Error over difference; below 0: the sibling is stiffer, and has half of the error; 0: no fibre
   /// is softened, so that there is no such error.
   double softening = 1.0;

@@ -61,6 +61,13 @@ TEST(NoBand, ErrorsOfAMeshThatResolvesNotFallWithTheElementsAlone) {
   }
 }
 
+TEST(NoBand, SoDoThoseOfPliesThatAPressureOrAClosedMouldForms) {
+  for (const char* name : {"closed_frustum.toml", "diaphragm_cap.toml"}) {
+    const PreparedCase pressed = prepare_case(std::string(PLYFORM_CASES "/verify/") + name, {});
+    EXPECT_FALSE(siblings_of(*pressed.value, pressed.meshes).resolved) << name;
+  }
+}
+
 TEST(NoBand, HaveAGivenForceAndADrawInThatIsHeld) {
   const NoBand cup = none_of("cup.toml");
   EXPECT_EQ(cup.force, (std::vector<std::string>{"", "", "given: it is what pushes the tool"}));
