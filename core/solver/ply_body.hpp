@@ -50,9 +50,10 @@ struct PlyModel {
   bool left_alone = false;   ///< nothing may move it, but something moves others
   bool self_contact = false; ///< whether it is in contact with itself, too
   ThicknessLaw thickness_law;
-  bool thickness_acts = false;      ///< in contact: core/solver/follow_thickness.hpp
-  std::vector<double> rim_distance; ///< contact/search/sheet_edges.hpp; where films slide and heat flows
-  bool convex = false;              ///< contact/search/unfolded.hpp; not asked without self-contact
+  bool thickness_acts = false; ///< in contact: core/solver/follow_thickness.hpp
+  std::vector<double>
+      rim_distance;    ///< contact/search/sheet_edges.hpp; where films slide and heat flows
+  bool convex = false; ///< contact/search/unfolded.hpp; not asked without self-contact
 };
 
 /// What an array has an entry for.
