@@ -2,11 +2,13 @@
 #include "core/run/bridging.hpp"
 
 #include "base/node_normals.hpp"
+#include "core/model/motion.hpp"
 #include "core/results/way_to_tool.hpp"
 #include "core/run/triangle_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -27,16 +29,11 @@ std::vector<Vec3> unit_normals(const PlyBody& ply) {
 
 /// +1, -1: loads press the stack of each ply to its upper, lower side; 0: to neither.
 std::vector<double> sides_of_loads(const Scene& s) {
-  std::vector<double> sum(s.plies.size(), 0.0), all(s.plies.size(), 0.0); // N, by stack
-  for (const PlyBody& ply : s.plies) {
-    if (ply.load.empty()) continue;
-    // A pressure p puts p/6 of its area normal on each node.
-    const std::vector<Vec3> normals = area_normals(ply.x, ply.membrane.triangles);
-    double up = 0.0, area = 0.0;
-    for (std::size_t n = 0; n < ply.load.size(); ++n)
-      up += ply.load[n].dot(normals[n].stableNormalized()), area += normals[n].norm() / 6.0;
-    const double pressure = up / area;
-    sum[at(ply.stack)] += pressure, all[at(ply.stack)] += std::abs(pressure);
+  std::vector<double> sum(s.plies.size(), 0.0), all(s.plies.size(), 0.0); // N/mm2, by stack
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const double pressure = pressure_on(s.data, p, s.time).value_or(0.0);
+    const std::size_t stack = at(s.plies[p].stack);
+    sum[stack] += pressure, all[stack] += std::abs(pressure);
   }
   std::vector<double> sides;
   for (const PlyBody& ply : s.plies) {
@@ -51,6 +48,7 @@ struct NodeState {
   bool pressed = false, held_up = false;
   double height = 0.0; ///< mm, (1); 0 where no tool is met
   Vec3 u = Vec3::Zero();
+  std::size_t tool = 0; ///< that it is over
 };
 
 /// The nodes beside each node.
@@ -143,10 +141,59 @@ struct BridgingSearch::Parts {
       if (h <= 0.5 * (t + b) && -at_x.normal.dot(node.u) > beneath) node.held_up = true;
       if (node.held_up) return;
       const double way = way_to_tool(body, x, node.u, most);
-      if (way < nearest) nearest = way, node.height = h > 0.5 * (t + b) ? h : 0.0;
+      if (way < nearest) nearest = way, node.height = h > 0.5 * (t + b) ? h : 0.0, node.tool = tool;
     }
   }
+
+  /// h at a point over a tool.
+  double height_over(std::size_t p, const Vec3& x, std::size_t tool) const {
+    SurfaceHint hint;
+    double b = 0.0;
+    return height(p, x, distance_to_tool(scene.tools[tool].body, x, hint), b);
+  }
+
+  void find_tops(std::size_t p, const std::vector<NodeState>& nodes,
+                 std::vector<double>& heights) const;
 };
+
+/// The largest h over the tool in a triangle of these corners: around the best of a pattern of
+/// points the next, half as wide.
+double highest_in(const std::array<Vec3, 3>& x, const std::function<double(const Vec3&)>& height) {
+  constexpr int halvings = 8; // to a thousandth of a side, over which h rises by no more
+  std::array<double, 2> best{1.0 / 3.0, 1.0 / 3.0};
+  const auto place = [&x](const std::array<double, 2>& w) {
+    return Vec3(x[0] + w[0] * (x[1] - x[0]) + w[1] * (x[2] - x[0]));
+  };
+  double top = height(place(best)), width = 1.0 / 3.0;
+  for (int i = 0; i < halvings; ++i, width *= 0.5) {
+    const std::array<double, 2> middle = best;
+    for (int a = -2; a <= 2; ++a)
+      for (int b = -2; b <= 2; ++b) {
+        const std::array<double, 2> w{middle[0] + a * width, middle[1] + b * width};
+        if (w[0] < 0.0 || w[1] < 0.0 || w[0] + w[1] > 1.0 || (a == 0 && b == 0)) continue;
+        if (const double here = height(place(w)); here > top) top = here, best = w;
+      }
+  }
+  return top;
+}
+
+/// Gives the highest node of each triangle of a span the largest h in it.
+void BridgingSearch::Parts::find_tops(std::size_t p, const std::vector<NodeState>& nodes,
+                                      std::vector<double>& heights) const {
+  const PlyBody& ply = scene.plies[p];
+  const std::vector<double> at_nodes = heights;
+  for (const Triangle& t : ply.membrane.triangles) {
+    const std::int32_t highest =
+        *std::max_element(t.begin(), t.end(), [&](std::int32_t a, std::int32_t b) {
+          return at_nodes[at(a)] < at_nodes[at(b)];
+        });
+    if (!(at_nodes[at(highest)] > 0.0)) continue;
+    const double top =
+        highest_in({ply.x[at(t[0])], ply.x[at(t[1])], ply.x[at(t[2])]},
+                   [&](const Vec3& x) { return height_over(p, x, nodes[at(highest)].tool); });
+    heights[at(highest)] = std::max(heights[at(highest)], top);
+  }
+}
 
 BridgingSearch::BridgingSearch(const Scene& scene, const Moulds& moulds)
     : parts_(new Parts{scene, false, sides_of_loads(scene), moulds.closed, {}}) {
@@ -158,7 +205,7 @@ BridgingSearch::BridgingSearch(const Scene& scene, const Moulds& moulds)
   parts_->grids.resize(scene.plies.size());
   for (std::size_t p = 0; any && scene.plies.size() > 1 && p < scene.plies.size(); ++p)
     parts_->grids[p].emplace(scene.plies[p].x, scene.plies[p].membrane.triangles,
-                             element_size(scene.plies[p]));
+                             element_size(scene.plies[p]), 0.5 * element_size(scene.plies[p]));
 }
 
 BridgingSearch::~BridgingSearch() = default;
@@ -178,7 +225,8 @@ void BridgingSearch::fill(std::size_t p, PlyFrame& frame) const {
   const double most = box.diagonal().norm();
   std::vector<NodeState> nodes(count);
   const auto take = [&] {
-    const std::vector<double> heights = heights_of_spans(ply, nodes);
+    std::vector<double> heights = heights_of_spans(ply, nodes);
+    parts_->find_tops(p, nodes, heights);
     for (std::size_t n = 0; n < count; ++n) {
       frame.bridging_height[n] = std::max(frame.bridging_height[n], heights[n]);
       if (nodes[n].pressed && !nodes[n].held_up) frame.pushed[n] = nodes[n].u;

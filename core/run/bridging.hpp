@@ -10,6 +10,13 @@
 //   d  mm  distance from the tool that the line along u meets first, along that tool's normal
 //   b  mm  thickness of the other plies between the node and the tool, along that normal
 //   h  mm  d - t/2 - b, height of the stack over the tool, t thickness of the ply            (1)
+// Over the middle of a hollow d has a ridge, where the nearest point of the tool changes sides, and
+// nodes lie beside it: the highest node of a triangle gets the largest h in that.
+//
+// A ply lies between, too, if the way to the tool misses its border by less than half of its
+// element size: plies as large as each other are drawn in by some hundredths of a millimetre more
+// or less, and what the last half element of a stack spans the mesh does not tell.
+//
 // Something holds a node up if h <= (t + b)/2 over a tool that faces it: on fillets facets of plies
 // leave gaps between each other. Where nothing does, neighbours make a region, which bridges if it
 //   - has a node beside it that is held up: nothing is spanned before the tool is touched;

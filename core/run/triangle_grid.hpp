@@ -11,8 +11,10 @@ namespace plyform {
 
 class TriangleGrid {
 public:
-  /// x: mm, all finite; cell: mm, about a side. Both arrays must outlive the grid.
-  TriangleGrid(std::span<const Vec3> x, std::span<const Triangle> triangles, double cell);
+  /// x: mm, all finite; cell: mm, about a side; margin: mm, by which ways may miss the border. Both
+  /// arrays must outlive the grid.
+  TriangleGrid(std::span<const Vec3> x, std::span<const Triangle> triangles, double cell,
+               double margin = 0.0);
 
   /// A triangle that the straight way from a to b (mm) crosses, one of the first on its way; -1:
   /// none.
@@ -30,7 +32,7 @@ private:
 
   std::span<const Vec3> x_;
   std::span<const Triangle> triangles_;
-  double size_;
+  double size_, margin_;
   Vec3 low_, high_;
   std::array<std::int64_t, 3> counts_{};
   std::vector<Entry> entries_; ///< ascending by cell

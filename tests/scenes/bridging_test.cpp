@@ -15,8 +15,8 @@ namespace {
 constexpr double width = 4.0, tension = 1.0; // mm, N/mm
 
 /// 45 degrees down either way, to 30 mm; two grippers hold the strip's ends on the land.
-Case strip_over_groove(bool yarns, double size, double pressure) {
-  Case data = stack_of({0.0}, rectangle(140.0, width, size));
+Case strip_over_groove(bool yarns, double size, double pressure, double length) {
+  Case data = stack_of({0.0}, rectangle(length, width, size));
   if (!yarns) {
     Fabric foil;
     foil.name = "foil";
@@ -34,7 +34,7 @@ Case strip_over_groove(bool yarns, double size, double pressure) {
   data.plies[0].z = 0.5 * data.fabrics[0].thickness;
   for (const double side : {-1.0, 1.0}) {
     Gripper gripper;
-    const double near = side * 66.0, far = side * 71.0;
+    const double near = side * 66.0, far = side * 72.0;
     gripper.place = {false, {Vec2(std::min(near, far), -width), Vec2(std::max(near, far), width)}};
     gripper.direction = side * Vec3::UnitX();
     gripper.force = tension * width;
@@ -57,8 +57,10 @@ struct Found {
   double wrinkle = 0.0;
 };
 
-Found spanned(bool yarns, double size, double pressure) {
-  const Case data = strip_over_groove(yarns, size, pressure);
+Found spanned(bool yarns, double size, double pressure, double length = 140.0,
+              double step_factor = 0.8) {
+  Case data = strip_over_groove(yarns, size, pressure, length);
+  data.solver.step_factor = step_factor;
   const RunResult run = run_case(data, 1, {});
   EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
   EXPECT_LT(std::abs(run.last.energy.balance_error()), 1e-3);
@@ -82,6 +84,16 @@ TEST(BridgingScene, HeightOverAGrooveFallsAsTensionOverPressure) {
     EXPECT_LT(std::abs(found.bridging.at.x()), 2.0);
     EXPECT_LT(found.wrinkle, 0.1);
   }
+}
+
+// An odd number of elements: no node lies over the groove's middle, where the height is largest.
+TEST(BridgingScene, IsTheCurvesHighestWhereverNodesLie) {
+  constexpr double pressure = 0.08, theory = (1.0 - 0.70710678118654752) * tension / pressure;
+  for (const auto& [size, elements] : {std::pair(2.0, 71.0), std::pair(1.5, 95.0)})
+    for (const double step_factor : {0.8, 0.5}) {
+      const Found found = spanned(false, size, pressure, elements * size, step_factor);
+      EXPECT_NEAR(found.bridging.height, theory, 0.02 * theory) << size << ' ' << step_factor;
+    }
 }
 
 TEST(BridgingScene, HalfTheElementSizeGivesTheSameHeight) {
