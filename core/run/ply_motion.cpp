@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "core/model/motion.hpp"
 #include "core/solver/force_kinds.hpp"
+#include "core/solver/limit_pressure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,17 +28,22 @@ double elastic_of(const Scene& s, std::size_t ply) {
 std::vector<std::string> doubts_of_flight(const Scene& s, const Frame& last) {
   const LargestMotion motion = largest_motion(s, motion_of_plies(s), last.energy.external);
   if (motion.flying.empty()) return {};
-  std::vector<std::string> names;
+  std::vector<std::string> names, found;
   for (const std::size_t p : motion.flying)
-    names.push_back(s.plies[p].name);
+    if (const std::string blown = beyond_limit_pressure(s, p); blown.empty())
+      names.push_back(s.plies[p].name);
+    else
+      found.push_back(fmt::format("do not trust {}, which flies: {}", s.plies[p].name, blown));
+  if (names.empty()) return found;
   const bool one = names.size() == 1;
-  return {fmt::format(
+  found.push_back(fmt::format(
       "do not trust forces, draw-in and shear: {} {} at the end, with a kinetic energy of {:.2g} "
       "of "
       "the work that deforms {}, so that speed decides where {}; a longer solver.duration, a "
       "solver.dwell, or holders where nothing holds",
       joined(names), one ? "flies" : "fly", motion.share, one ? "it" : "them",
-      one ? "it lies" : "they lie")};
+      one ? "it lies" : "they lie"));
+  return found;
 }
 
 /// The box around the bodies at the start, and around driven ones over their strokes, mm.

@@ -3,6 +3,7 @@
 
 #include "contact/intersections.hpp"
 #include "core/solver/force_kinds.hpp"
+#include "core/solver/limit_pressure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,17 +44,29 @@ std::string remedy_for(const Scene& s, const char* advice) {
   return fmt::format("ply {} has folded through itself: set contact.self = \"on\"", folded->name);
 }
 
+/// What a ply whose triangles collapse is told besides. shear: degrees.
+std::string why_collapsed(const Scene& s, std::size_t ply, double shear) {
+  if (const std::string blown = beyond_limit_pressure(s, ply); !blown.empty()) return "; " + blown;
+  const bool yarns = !s.plies[ply].membrane.families.empty();
+  return yarns && shear >= sheared_too_far ? sheared_remedy : "";
+}
+
 } // namespace
 
 std::optional<Stop> find_not_finite(const Scene& s) {
-  for (const PlyBody& ply : s.plies)
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const PlyBody& ply = s.plies[p];
     for (std::size_t n = 0; n < ply.x.size(); ++n)
       if (!ply.x[n].allFinite() || ply.x[n].cwiseAbs().maxCoeff() > furthest_place ||
-          ply.motion[n].cwiseAbs().maxCoeff() > furthest_place)
-        return Stop{fmt::format("{}: ply {}, node {}: position is not finite, or a thousand "
-                                "kilometres away; a smaller solver.step_factor or more damping may "
-                                "help",
-                                when(s), ply.name, n)};
+          ply.motion[n].cwiseAbs().maxCoeff() > furthest_place) {
+        const std::string blown = beyond_limit_pressure(s, p);
+        return Stop{fmt::format(
+            "{}: ply {}, node {}: position is not finite, or a thousand "
+            "kilometres away; {}",
+            when(s), ply.name, n,
+            blown.empty() ? "a smaller solver.step_factor or more damping may help" : blown)};
+      }
+  }
   return std::nullopt;
 }
 
@@ -90,7 +103,8 @@ std::optional<Stop> find_squeezed(const Scene& s) {
 }
 
 std::optional<Stop> find_collapsed(const Scene& s) {
-  for (const PlyBody& ply : s.plies)
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const PlyBody& ply = s.plies[p];
     for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e) {
       const AxesState f = axes_state(ply.membrane, ply.x, static_cast<int>(e));
       if (!collapsed(f)) continue;
@@ -99,8 +113,9 @@ std::optional<Stop> find_collapsed(const Scene& s) {
       return Stop{fmt::format("{}: ply {}, triangle {} has collapsed: stretch {:.3g} along {}, "
                               "{:.3g} {}, sheared by {:.3g} degrees{}",
                               when(s), ply.name, e, f.lambda1, along, f.lambda2, across, shear,
-                              shear < sheared_too_far ? "" : sheared_remedy)};
+                              why_collapsed(s, p, shear))};
     }
+  }
   return std::nullopt;
 }
 
