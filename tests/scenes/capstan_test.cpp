@@ -35,70 +35,95 @@ Vec3 wrapped(const Wrap& w, double X) {
   return {-r * std::cos(a) + rest * std::sin(a), 0.0, r * std::sin(a) + rest * std::cos(a)};
 }
 
-Scene capstan(const Wrap& w, double mu) {
+/// Strips side by side round one drum, each with its own coefficient of friction on it.
+Scene capstan(const Wrap& w, const std::vector<double>& mu) {
+  constexpr double apart = 20.0; // mm
   const double half = 0.5 * w.length();
-  Case data = stack_of({0.0}, rectangle(2.0 * half, 10.0, cell));
+  const std::size_t strips = mu.size();
+  const auto middle = [&](std::size_t p) {
+    return apart * (static_cast<double>(p) - 0.5 * static_cast<double>(strips - 1));
+  };
+  Case data = stack_of(std::vector<double>(strips, 0.0), rectangle(2.0 * half, 10.0, cell));
   Tool drum;
   drum.name = "drum";
-  drum.shape = Cylinder{w.radius() - 0.5 * data.fabrics[0].thickness, 40.0};
+  drum.shape = Cylinder{w.radius() - 0.5 * data.fabrics[0].thickness,
+                        20.0 + apart * static_cast<double>(strips)};
   drum.rotation = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
   data.tools = {drum};
-  set_friction(data, mu);
+  set_friction(data, 0.0);
   const Vec3 out(std::sin(w.angle), 0.0, std::cos(w.angle));
-  data.boundaries = {hold("behind", {-half, -5}, {-half, 5}, Vec3::UnitZ(), 7.0),
-                     hold("ahead", {half, -5}, {half, 5}, out, 10.0)};
+  for (std::size_t p = 0; p < strips; ++p) {
+    data.friction.mu[p * (strips + 1) + strips] = data.friction.mu[strips * (strips + 1) + p] =
+        mu[p];
+    for (Boundary end : {hold("behind", {-half, -5}, {-half, 5}, Vec3::UnitZ(), 7.0),
+                         hold("ahead", {half, -5}, {half, 5}, out, 10.0)}) {
+      end.name += std::to_string(p);
+      end.ply = static_cast<int>(p);
+      data.boundaries.push_back(end);
+    }
+  }
   data.solver.element = ElementKind::plain;
   data.solver.fibre_softening = 100.0;
   data.solver.duration = 0.07;
   data.solver.outputs = 50;
   Scene scene = make_scene(data);
-  for (Vec3& x : scene.plies[0].x0) {
-    const double y = x.y();
-    x = wrapped(w, x.x() + half);
-    x.y() = y;
+  for (std::size_t p = 0; p < strips; ++p) {
+    for (Vec3& x : scene.plies[p].x0) {
+      const double y = x.y() + middle(p);
+      x = wrapped(w, x.x() + half);
+      x.y() = y;
+    }
+    scene.plies[p].x = scene.plies[p].x0;
   }
-  scene.plies[0].x = scene.plies[0].x0;
   return scene;
 }
 
-/// Slides a strip round the drum and looks at the pulls from 10 % of the way on.
-void expect_exponential(const Wrap& w, double mu) {
-  const double wanted = std::exp(mu * w.angle);
-  double least = 1e9, most = 0.0;
+/// Slides strips round the drum and looks at the pulls from 10 % of the way on.
+void expect_exponential(const Wrap& w, const std::vector<double>& mu) {
+  std::vector<double> least(mu.size(), 1e9), most(mu.size(), 0.0);
   RunHooks hooks;
   hooks.frame = [&](const Frame& f) {
     if (f.stroke_mm < 1.0) return; // of 7 mm; slack before
-    const double ratio = -f.boundaries.at(1).force_N / f.boundaries.at(0).force_N;
-    ASSERT_FALSE(std::isnan(ratio));
-    least = std::min(least, ratio);
-    most = std::max(most, ratio);
+    for (std::size_t p = 0; p < mu.size(); ++p) {
+      const double ratio = -f.boundaries.at(2 * p + 1).force_N / f.boundaries.at(2 * p).force_N;
+      ASSERT_FALSE(std::isnan(ratio));
+      least[p] = std::min(least[p], ratio);
+      most[p] = std::max(most[p], ratio);
+    }
   };
   const EndedRun run = run_on_any_threads([&] { return capstan(w, mu); }, hooks);
   ASSERT_TRUE(ended(run.result.summary.status)) << run.result.summary.message;
-  // inertia on the way, and the angle of a piece
-  EXPECT_NEAR(least, wanted, 0.01 * wanted);
-  EXPECT_NEAR(most, wanted, 0.01 * wanted);
-  fmt::print("{:.0f} degrees, mu {}: pulls of {:.2f} and {:.2f} N at the end, {:+.4f} to {:+.4f} "
-             "off {:.4f}; {} steps, {:.2f} s\n",
-             w.angle * 180.0 / std::numbers::pi, mu, -run.result.last.boundaries[0].force_N,
-             run.result.last.boundaries[1].force_N, least / wanted - 1.0, most / wanted - 1.0,
-             wanted, run.result.summary.steps, run.result.summary.wall_time_s);
+  for (std::size_t p = 0; p < mu.size(); ++p) { // inertia on the way, and the angle of a piece
+    const double wanted = std::exp(mu[p] * w.angle);
+    EXPECT_NEAR(least[p], wanted, 0.01 * wanted);
+    EXPECT_NEAR(most[p], wanted, 0.01 * wanted);
+    const std::vector<BoundaryFrame>& pulls = run.result.last.boundaries;
+    fmt::print("{:.0f} degrees, mu {}: pulls of {:.2f} and {:.2f} N at the end, {:+.4f} to {:+.4f} "
+               "off {:.4f}; {} steps, {:.2f} s\n",
+               w.angle * 180.0 / std::numbers::pi, mu[p], -pulls[2 * p].force_N,
+               pulls[2 * p + 1].force_N, least[p] / wanted - 1.0, most[p] / wanted - 1.0, wanted,
+               run.result.summary.steps, run.result.summary.wall_time_s);
+  }
 }
 
 TEST(CapstanScene, PullGrowsByTheExponentialRoundFortyFiveDegrees) {
-  expect_exponential({8, 0.25 * std::numbers::pi}, 0.3);
+  expect_exponential({8, 0.25 * std::numbers::pi}, {0.3});
 }
 
 TEST(CapstanScene, PullGrowsByTheExponentialRoundNinetyDegrees) {
-  expect_exponential({16, 0.5 * std::numbers::pi}, 0.3);
+  expect_exponential({16, 0.5 * std::numbers::pi}, {0.3});
 }
 
 TEST(CapstanScene, PullGrowsByTheExponentialOfLittleFriction) {
-  expect_exponential({16, 0.5 * std::numbers::pi}, 0.1);
+  expect_exponential({16, 0.5 * std::numbers::pi}, {0.1});
 }
 
 TEST(CapstanScene, PullGrowsByTheExponentialRoundHalfATurn) {
-  expect_exponential({32, std::numbers::pi}, 0.3);
+  expect_exponential({32, std::numbers::pi}, {0.3});
+}
+
+TEST(CapstanScene, EachStripHasTheExponentialOfItsOwnPair) {
+  expect_exponential({8, 0.5 * std::numbers::pi}, {0.1, 0.2, 0.4});
 }
 
 } // namespace
