@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/checks/scene_checks.hpp"
 
+#include "core/input/checks/load_checks.hpp"
 #include "core/input/checks/tool_overlap.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/motion.hpp"
@@ -330,6 +331,7 @@ std::vector<BlankMesh> check_scene(const Case& scene, const CaseParts& parts,
   make_surfaces(check);
   check_boundaries(scene, parts, check.plies, check.surfaces, diagnostics);
   check_attachments(scene, parts, check.plies, diagnostics);
+  check_loads(scene, parts, check.plies, diagnostics);
   check_tools_outside(check);
   if (diagnostics.errors.empty())
     check_motions(scene, parts, check.plies, check.surfaces, diagnostics);
