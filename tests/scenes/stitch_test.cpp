@@ -91,6 +91,50 @@ TEST(StitchScene, FramesBothWaysDifferByTheStitch) {
   }
 }
 
+/// rad, at which the torques of a free ply's crossings and of its stitch balance: by bisection.
+double static_angle(const Fabric& fabric, const Stitch& stitch) {
+  double low = -0.5, high = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const double g = 0.5 * (low + high);
+    const double torque =
+        cells_per_area(fabric, fabric.crossings[0]) * fabric.crossings[0].shear.at(g).value +
+        torque_of(stitch, g);
+    (torque > 0.0 ? high : low) = g;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Pre-tension comes up slowly enough that a free ply comes to where statics has it, and stays.
+TEST(StitchScene, PretensionShearsAFreePlyToItsStaticAngle) {
+  const Stitch stitch = stitch_at(0.25 * pi, 3.0, -0.02);
+  Fabric fabric = stitched_weave(stitch);
+  for (YarnFamily& family : fabric.families)
+    family.tension.compression = family.tension.stiffness; // it shears, and yarns keep their length
+  const double wanted = static_angle(fabric, stitch) * 180.0 / pi;
+  ASSERT_LT(wanted, -0.5);
+  for (const double element_size : {10.0, 15.0})
+    for (const double step_factor : {0.5, 0.25}) {
+      Case data = stack_of({0.0}, rectangle(60.0, 60.0, element_size));
+      data.fabrics = {fabric};
+      data.solver.fibre_softening = 100.0;
+      data.solver.duration = 0.4; // s: its first tenth is several swings long
+      data.solver.step_factor = step_factor;
+      data.solver.outputs = 20;
+      double furthest = 0.0;
+      RunHooks hooks;
+      hooks.frame = [&](const Frame& frame) {
+        for (const double angle : frame.plies[0].shear_deg)
+          furthest = std::min(furthest, angle);
+      };
+      const RunResult run = run_case(data, 1, hooks);
+      EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+      EXPECT_LT(std::abs(run.last.energy.balance_error()), 1e-3);
+      for (const double angle : run.last.plies[0].shear_deg)
+        EXPECT_NEAR(angle, wanted, -0.01 * wanted) << element_size << ' ' << step_factor;
+      EXPECT_GT(furthest, 1.05 * wanted) << element_size << ' ' << step_factor; // hardly swings
+    }
+}
+
 /// Before they break as whole ones, afterwards as none; what they had stored is lost.
 TEST(StitchScene, FrameLosesItsStitchesWhereTheyBreak) {
   Stitch stitch = stitch_at(0.25 * pi, 3.0);

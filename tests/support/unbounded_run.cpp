@@ -81,7 +81,7 @@ int main(int count, char** arguments) {
   const std::vector<std::string> words(arguments + 1, arguments + count);
   const std::string command = words.empty() ? "" : words[0];
   try {
-    if (command == "keys") return keys_command(false, false);
+    if (command == "keys") return keys_command(false, false, false);
     if (command == "version") return std::printf("unbounded plyform %s\n", version()) > 0 ? 0 : 1;
     if ((command == "run" || command == "check") && words.size() > 1) return run_or_check(words);
     std::fprintf(stderr, "unbounded_run run|check CASE [--set KEY=VALUE]... [-o FOLDER] "
