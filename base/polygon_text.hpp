@@ -13,7 +13,7 @@
 namespace plyform {
 
 inline constexpr const char* not_finite =
-    "a coordinate is not a finite number (nan or inf); export the mesh again";
+    "a coordinate is not a finite number; export the mesh again";
 
 /// Words of a text, separated by blanks, with the number of their line.
 class WordReader {

@@ -46,7 +46,7 @@ std::string text_of(const Point& p) {
 void check(const PolygonSoup& soup, const std::string& name) {
   for (std::size_t i = 0; i < soup.points.size(); ++i)
     if (!soup.points[i].allFinite())
-      fail(name, fmt::format("a coordinate of point {} is not a finite number (nan or inf); export "
+      fail(name, fmt::format("a coordinate of point {} is not a finite number; export "
                              "the mesh again",
                              i));
   constexpr double most = 1e5; // mm, as lengths in a case

@@ -96,8 +96,8 @@ def filled(server):
     (server.folder / "long/case.toml").write_text(LONG)
     broken = (server.folder / QUICK).read_text().replace("radius = 75.0", "radius = -75.0")
     (server.folder / "cases/hemisphere_0/broken.toml").write_text(broken)
-    coarse = (server.folder / QUICK).read_text().replace("element_size = 10.0", "element_size = 34.0")
-    coarse = coarse.replace('mesh_from = "scene"', 'mesh_from = "element_size"').replace("duration = 0.1 ", "duration = 0.02 ")
+    coarse = (server.folder / QUICK).read_text().replace("element_size = 10.0", "element_size = 22.0")
+    coarse = coarse.replace('mesh_from = "scene"', 'mesh_from = "element_size"').replace("duration = 0.1 ", "duration = 0.03 ")
     (server.folder / COARSE).write_text(coarse)
 
 

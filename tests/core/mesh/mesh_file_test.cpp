@@ -206,13 +206,13 @@ TEST(BlankFromFile, ANumberThatIsNoneIsNotTakenForAnother) {
                               "vertex 0 " +
                               bad + " 0\nendloop\nendfacet\n";
     EXPECT_EQ(error_of("stl", "solid a\n" + facet + "endsolid a\n"),
-              "line 6: a coordinate is not a finite number (nan or inf); export the mesh again");
+              "line 6: a coordinate is not a finite number; export the mesh again");
   }
   // Its second triangle used to begin at (0, 0), the point that a map finds for any nan.
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const BlankMesh square{{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {nan, 0}}, {{0, 1, 2}, {4, 2, 3}}};
   EXPECT_EQ(error_of("stl", as_binary_stl(square, 0)),
-            "facet 1: a coordinate is not a finite number (nan or inf); export the mesh again");
+            "facet 1: a coordinate is not a finite number; export the mesh again");
 }
 
 TEST(BlankFromFile, NodesBeyondAHundredMetresAreRefused) {
