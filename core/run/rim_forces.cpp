@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/rim_forces.hpp"
 
-#include "base/node_normals.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,31 +10,66 @@ namespace {
 
 constexpr double beside = 0.7;     // cosine of 45 degrees: the nearest of the tool is its rim
 constexpr double tolerable = 0.02; // of a force
-constexpr double uncovered = 0.6;  // of an area: half at a straight rim, three quarters at a corner
+constexpr int samples = 12;        // along a side of a triangle: its covered share to some 0.02
 
-/// N, of the normal forces of a tool on a ply those at nodes of its rim.
-double force_at_rim(const ToolBody& tool, const ToolPlyContact& contact, const PlyBody& ply) {
-  std::vector<double> force(ply.x.size(), 0.0);
-  for (const ToolPlyPoint& c : contact.points)
-    force[at(c.node)] = c.memory.normal_force;
-  const std::vector<Vec3> normals = mean_normals(ply.x, ply.membrane.triangles);
-  std::vector<char> at_rim(ply.x.size(), 0);
-  for (const Triangle& t : ply.membrane.triangles) {
-    const auto touches = [&](std::int32_t n) { return force[at(n)] > 0.0; };
-    if (std::none_of(t.begin(), t.end(), touches) || std::all_of(t.begin(), t.end(), touches))
-      continue;
-    const bool past = std::any_of(t.begin(), t.end(), [&](std::int32_t n) {
-      if (touches(n)) return false;
-      SurfaceHint hint;
-      const SurfacePoint near = distance_to_tool(tool, ply.x[at(n)], hint);
-      return std::abs(near.normal.dot(normals[at(n)])) < beside;
-    });
-    for (const std::int32_t n : t)
-      if (past && touches(n)) at_rim[at(n)] = 1;
+/// Whether a tool lies over `x`, of a ply with the normal `n`, and not beside it.
+bool covers(const ToolBody& tool, const Vec3& x, const Vec3& n) {
+  SurfaceHint hint;
+  return std::abs(distance_to_tool(tool, x, hint).normal.dot(n)) >= beside;
+}
+
+/// Share of a triangle that a tool lies over, by the centres of small triangles in it.
+double covered_share(const ToolBody& tool, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = (b - a).cross(c - a).normalized();
+  int inside = 0, all = 0;
+  for (int i = 0; i < samples; ++i)
+    for (int j = 0; i + j < samples; ++j)
+      for (const double third : {1.0 / 3.0, 2.0 / 3.0}) { // of both that a cell has
+        const double u = (i + third) / samples, v = (j + third) / samples;
+        if (u + v >= 1.0) continue;
+        ++all;
+        if (covers(tool, a + u * (b - a) + v * (c - a), normal)) ++inside;
+      }
+  return static_cast<double>(inside) / all;
+}
+
+/// Forces (N) and areas (mm^2) of the nodes of a ply that a tool touches.
+struct Touched {
+  std::vector<double> force, area;
+
+  Touched(const ToolPlyContact& contact, const PlyBody& ply)
+      : force(ply.x.size(), 0.0), area(ply.x.size(), 0.0) {
+    for (const ToolPlyPoint& c : contact.points)
+      force[at(c.node)] = c.memory.normal_force;
+    for (const Triangle& t : ply.membrane.triangles)
+      for (const std::int32_t n : t)
+        area[at(n)] += area_of(ply, t) / 3.0;
   }
+  static double area_of(const PlyBody& ply, const Triangle& t) {
+    return 0.5 *
+           (ply.x[at(t[1])] - ply.x[at(t[0])]).cross(ply.x[at(t[2])] - ply.x[at(t[0])]).norm();
+  }
+};
+
+/// N by which the nodes of a triangle push a tool more than what it covers of the triangle would.
+double excess_of(const ToolBody& tool, const Touched& nodes, const PlyBody& ply,
+                 const Triangle& t) {
+  double pressure = 0.0;
+  int touching = 0;
+  for (const std::int32_t n : t)
+    if (nodes.force[at(n)] > 0.0) ++touching, pressure += nodes.force[at(n)] / nodes.area[at(n)];
+  if (touching == 0 || touching == 3) return 0.0;
+  const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];
+  const double covered = covered_share(tool, a, b, c);
+  if (covered == 1.0) return 0.0; // nodes let go for another reason
+  return pressure / touching * Touched::area_of(ply, t) * (touching / 3.0 - covered);
+}
+
+double excess_at_rim(const ToolBody& tool, const ToolPlyContact& contact, const PlyBody& ply) {
+  const Touched nodes(contact, ply);
   double sum = 0.0;
-  for (std::size_t n = 0; n < force.size(); ++n)
-    if (at_rim[n]) sum += force[n];
+  for (const Triangle& t : ply.membrane.triangles)
+    sum += excess_of(tool, nodes, ply, t);
   return sum;
 }
 
@@ -48,7 +81,7 @@ std::vector<double> rim_forces(const Scene& s) {
     double sum = 0.0;
     for (std::size_t p = 0; p < s.plies.size(); ++p)
       if (t.contacts[p].law.loading && t.contacts[p].sums.touching > 0)
-        sum += force_at_rim(t.body, t.contacts[p], s.plies[p]);
+        sum += excess_at_rim(t.body, t.contacts[p], s.plies[p]);
     forces.push_back(sum);
   }
   return forces;
@@ -59,12 +92,14 @@ std::vector<std::string> doubts_of_rims(const Scene& s) {
   const std::vector<double> rims = rim_forces(s);
   for (std::size_t t = 0; t < rims.size(); ++t) {
     const double force = s.tools[t].force.norm();
-    if (!(uncovered * rims[t] > tolerable * force)) continue;
-    found.push_back(fmt::format(
-        "do not trust the force on {} to better than {:.2g} % of its {:.3g} N: {:.2g} % acts at "
-        "nodes of its rim, each with its whole area, of which the rim covers a part; smaller "
-        "elements there, or a tool as large as the plies",
-        s.tools[t].name, 100.0 * uncovered * rims[t] / force, force, 100.0 * rims[t] / force));
+    if (!(std::abs(rims[t]) > tolerable * force)) continue;
+    found.push_back(fmt::format("do not trust the {:.3g} N on {}: nodes at its rim push with the "
+                                "whole of their areas, some "
+                                "{:.2g} N {} than what the rim covers of them; smaller elements "
+                                "there, or a tool as large as "
+                                "the plies",
+                                force, s.tools[t].name, std::abs(rims[t]),
+                                rims[t] > 0.0 ? "more" : "less"));
   }
   return found;
 }

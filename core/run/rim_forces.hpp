@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces at the rims of tools. Contact acts at nodes, each with the whole area of its own: at a
 // node beside the rim of a tool that ends there, as a platen smaller than the plies, the rim covers
-// a part of it that the mesh does not tell. So a force through the thickness is known to half of
-// what acts at such nodes.
+// a part of it alone, or of areas beyond. What that makes of a force through the thickness is
+// measured here by the share of each triangle that the tool lies over.
 #pragma once
 
 #include "core/solver/scene.hpp"
@@ -12,8 +12,8 @@
 
 namespace plyform {
 
-/// N, of each tool: what acts on plies that give way through their thickness at nodes beside which
-/// another is past the tool's rim.
+/// N, of each tool: by how much plies that give way through their thickness push it more than what
+/// it covers of their triangles would, at their pressures.
 std::vector<double> rim_forces(const Scene& s);
 
 /// Doubts about forces of tools whose rims lie within plies.
