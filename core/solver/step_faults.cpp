@@ -90,6 +90,10 @@ std::optional<Stop> find_fault(const Scene& s) {
 std::optional<Stop> find_squeezed(const Scene& s) {
   constexpr double least = 1e-4; // of the longest step: with less the run would practically not end
   if (s.next_dt > least * s.max_dt) return std::nullopt;
+  if (!std::isfinite(s.next_dt))
+    return Stop{fmt::format("{}: the stable step is no number: a stiffness is beyond what numbers "
+                            "hold; check the numbers of the fabrics",
+                            when(s))};
   std::string who = "plies";
   double ratio = std::numeric_limits<double>::infinity();
   each_contact(s, [&](const auto& contact, const auto& between) {

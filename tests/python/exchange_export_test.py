@@ -169,7 +169,7 @@ def check_wrong(results):
                               (("--frame=-9",), "--frame -9: a number from 0", 2),
                               (("--frame", "two"), "--frame two: a number from 0", 2),
                               (("--frame", "9", "--format", "gltf"), "has no frame 9", 2),
-                              (("--format", "obj"), "--format", 1)):
+                              (("--format", "obj"), "--format", 2)):
         done = call("export", results, *words, code=code)
         assert told in done.stderr, done
 
