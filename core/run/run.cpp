@@ -216,10 +216,9 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
   sum.known_forces = state.known_forces;
   sum.pushed = pushed_tools(s);
   std::vector<std::string> reasons = doubts(s, result.last, sum.plies, cuts);
-  for (std::string& reason : doubts_of_forces(s, state.known_forces, state.astray))
-    reasons.push_back(std::move(reason));
   for (auto&& more :
-       {doubts_of_sliding(sum.work.pairs), doubts_of_packing(s, result.last, state.packing)})
+       {doubts_of_forces(s, state.known_forces, state.astray), doubts_of_sliding(sum.work.pairs),
+        doubts_of_packing(s, result.last, state.packing)})
     reasons.insert(reasons.end(), more.begin(), more.end());
   if (sum.contact.intersections_within_plies > 0 && !any_self_contact(s))
     reasons.push_back(fmt::format("do not trust folds: {} pairs of triangles of one ply cross, as "
@@ -231,10 +230,6 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
   if (const std::string forces = unsettled_forces(s, state.dwell); !forces.empty())
     sum.work.missing.push_back(forces);
 }
-
-} // namespace
-
-namespace {
 
 /// One run: the loop over its steps.
 class Run {

@@ -291,12 +291,42 @@ void leave_out_lost(VerifiedFigure& f, std::size_t tool, const RunEnd& run, cons
   }
 }
 
+/// Forces of all tools, still without bands.
+std::vector<VerifiedFigure> verified_forces(const RunEnd& run, const Ends& siblings,
+                                            const Siblings& made) {
+  std::vector<VerifiedFigure> force;
+  for (std::size_t t = 0; t < run.last.tools.size(); ++t) {
+    VerifiedFigure& f = force.emplace_back();
+    f.name = "force of " + run.last.tools[t].name, f.unit = "N", f.force = true;
+    f.jitter = run.jitter_N;
+    f.value = run.last.tools[t].force_N;
+    if (const std::string why = why_no_force(run, t); !why.empty()) {
+      leave_out(f, why);
+      continue;
+    }
+    estimate(f, run, siblings, made, [t](const RunEnd& a, const RunEnd& b) {
+      return a.last.tools[t].force_N - b.last.tools[t].force_N;
+    });
+    if (run.balance_N.empty()) {
+      leave_out_lost(f, t, run, siblings, made);
+      continue;
+    }
+    f.jitter = std::max(f.jitter, std::abs(f.value - run.balance_N[t]));
+    VerifiedFigure by_balance = f;
+    estimate(by_balance, run, siblings, made,
+             [t](const RunEnd& a, const RunEnd& b) { return a.balance_N[t] - b.balance_N[t]; });
+    pool(f, by_balance);
+  }
+  return force;
+}
+
 } // namespace
 
 std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& siblings,
                                              const Siblings& made,
                                              const PredictedError& predicted) {
   std::vector<VerifiedFigure> shear, draw_in, pressed, all;
+  std::vector<VerifiedFigure> force = verified_forces(run, siblings, made);
   for (std::size_t p = 0; p < run.last.plies.size(); ++p) {
     const std::string& name = run.last.plies[p].name;
     shear.push_back(figure_of_shear(name, run, siblings, made, predicted,
@@ -321,29 +351,6 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& sibl
                [&](const RunEnd& a, const RunEnd& b) { return largest(a) - largest(b); });
       if (const std::string why = why_none(run.no_band.pressed, p); !why.empty()) leave_out(f, why);
     }
-  }
-  std::vector<VerifiedFigure> force;
-  for (std::size_t t = 0; t < run.last.tools.size(); ++t) {
-    VerifiedFigure& f = force.emplace_back();
-    f.name = "force of " + run.last.tools[t].name, f.unit = "N", f.force = true;
-    f.jitter = run.jitter_N;
-    f.value = run.last.tools[t].force_N;
-    if (const std::string why = why_no_force(run, t); !why.empty()) {
-      leave_out(f, why);
-      continue;
-    }
-    estimate(f, run, siblings, made, [t](const RunEnd& a, const RunEnd& b) {
-      return a.last.tools[t].force_N - b.last.tools[t].force_N;
-    });
-    if (run.balance_N.empty()) {
-      leave_out_lost(f, t, run, siblings, made);
-      continue;
-    }
-    f.jitter = std::max(f.jitter, std::abs(f.value - run.balance_N[t]));
-    VerifiedFigure by_balance = f;
-    estimate(by_balance, run, siblings, made,
-             [t](const RunEnd& a, const RunEnd& b) { return a.balance_N[t] - b.balance_N[t]; });
-    pool(f, by_balance);
   }
   pool(draw_in);
   pool(pressed);
