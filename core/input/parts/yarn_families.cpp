@@ -18,6 +18,8 @@ namespace plyform {
 
 namespace {
 
+constexpr double steepest = 1e12; // N, or N mm^2: far beyond the stiffest key; steps stay numbers
+
 /// Checks the table of a law: it must start at the origin with increasing first column; the second
 /// column must not decrease if `rising`, its name in the message, is not empty.
 void check_law(const TableView& law, const std::string& key, const std::vector<Vec2>& points,
@@ -32,6 +34,11 @@ void check_law(const TableView& law, const std::string& key, const std::vector<V
     if (!(points[i].x() > points[i - 1].x()))
       return fail(i, "must have a first number above that of the row before",
                   "put the rows in ascending order, each value once");
+    if (!(std::abs(points[i].y() - points[i - 1].y()) <=
+          steepest * (points[i].x() - points[i - 1].x())))
+      return fail(i,
+                  fmt::format("is too steep: more than {:g} a unit from the row before", steepest),
+                  "check the first number of both rows");
     if (!rising.empty() && !(points[i].y() >= points[i - 1].y()))
       return fail(i, fmt::format("must not have less {} than the row before", rising),
                   "take out what falls: a yarn that softens is not modelled");
