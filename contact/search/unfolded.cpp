@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/search/unfolded.hpp"
 
+#include "base/node_normals.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/convex_hull_2.h>
@@ -24,10 +26,6 @@ struct Patch {
   bool rim = false;            ///< has a free edge
   std::vector<Vec3> normals{}; ///< of its triangles
 };
-
-double area_of(std::span<const Vec3> x0, const Triangle& t) {
-  return 0.5 * (x0[t[1]] - x0[t[0]]).cross(x0[t[2]] - x0[t[0]]).norm();
-}
 
 std::vector<Patch> patches_of(const UndeformedSheet& sheet, const SheetEdges& edges,
                               std::span<const Vec3> x) {
@@ -81,7 +79,7 @@ bool is_convex(std::span<const Vec3> x0, std::span<const Triangle> triangles) {
     within += 0.5 * (p.x() * q.y() - p.y() * q.x());
   }
   for (const Triangle& t : triangles)
-    area += area_of(x0, t);
+    area += triangle_area(x0, t);
   return area >= (1.0 - 1e-6) * within;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/mould_fill.hpp"
 
+#include "base/node_normals.hpp"
+
 #include <algorithm>
 
 namespace plyform {
@@ -14,11 +16,6 @@ Vec3 centre_of(const PlyFrame& ply, std::size_t triangle) {
   return (ply.x[at(a)] + ply.x[at(b)] + ply.x[at(c)]) / 3.0;
 }
 
-double area_now(const PlyFrame& ply, std::size_t triangle) {
-  const auto [a, b, c] = ply.triangles[triangle];
-  return 0.5 * (ply.x[at(b)] - ply.x[at(a)]).cross(ply.x[at(c)] - ply.x[at(a)]).norm();
-}
-
 } // namespace
 
 std::optional<FibreVolume> fibre_volume_of(const PlyFrame& ply) {
@@ -26,7 +23,7 @@ std::optional<FibreVolume> fibre_volume_of(const PlyFrame& ply) {
   if (v.empty()) return std::nullopt;
   double fibres = 0.0, volume = 0.0;
   for (std::size_t e = 0; e < v.size(); ++e) {
-    const double of_triangle = area_now(ply, e) * ply.thickness[e];
+    const double of_triangle = triangle_area(ply.x, ply.triangles[e]) * ply.thickness[e];
     fibres += v[e] * of_triangle, volume += of_triangle;
   }
   const auto [least, largest] = std::minmax_element(v.begin(), v.end());

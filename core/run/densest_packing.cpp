@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/densest_packing.hpp"
 
+#include "base/node_normals.hpp"
 #include "core/model/motion.hpp"
 
 #include <algorithm>
@@ -13,10 +14,6 @@ namespace plyform {
 namespace {
 
 constexpr double last_digit = 1e-3; // of V_d, that a column has
-
-double area_now(const std::vector<Vec3>& x, const Triangle& t) {
-  return 0.5 * (x[at(t[1])] - x[at(t[0])]).cross(x[at(t[2])] - x[at(t[0])]).norm();
-}
 
 /// (1).
 double densest_of(const Fabric& fabric) {
@@ -63,7 +60,7 @@ Overpacked beyond_in(const PlyBody& ply, const PlyFrame& frame, double of_stack)
     const Triangle& t = frame.triangles[e];
     found.fibre_volume = now.volume, found.densest = now.densest;
     found.at = (frame.x[at(t[0])] + frame.x[at(t[1])] + frame.x[at(t[2])]) / 3.0;
-    const double flat = area_now(frame.x, t) / before;
+    const double flat = triangle_area(frame.x, t) / before;
     found.crushed = now.volume * flat * ratio_of(ply, e) < now.densest ? flat : 0.0;
   }
   found.share = all > 0.0 ? beyond / all : 0.0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/rim_forces.hpp"
 
+#include "base/node_normals.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -43,11 +45,7 @@ struct Touched {
       force[at(c.node)] = c.memory.normal_force;
     for (const Triangle& t : ply.membrane.triangles)
       for (const std::int32_t n : t)
-        area[at(n)] += area_of(ply, t) / 3.0;
-  }
-  static double area_of(const PlyBody& ply, const Triangle& t) {
-    return 0.5 *
-           (ply.x[at(t[1])] - ply.x[at(t[0])]).cross(ply.x[at(t[2])] - ply.x[at(t[0])]).norm();
+        area[at(n)] += triangle_area(ply.x, t) / 3.0;
   }
 };
 
@@ -62,7 +60,7 @@ double excess_of(const ToolBody& tool, const Touched& nodes, const PlyBody& ply,
   const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];
   const double covered = covered_share(tool, a, b, c);
   if (covered == 1.0) return 0.0; // nodes let go for another reason
-  return pressure / touching * Touched::area_of(ply, t) * (touching / 3.0 - covered);
+  return pressure / touching * triangle_area(ply.x, t) * (touching / 3.0 - covered);
 }
 
 double excess_at_rim(const ToolBody& tool, const ToolPlyContact& contact, const PlyBody& ply) {
@@ -73,33 +71,28 @@ double excess_at_rim(const ToolBody& tool, const ToolPlyContact& contact, const 
   return sum;
 }
 
-} // namespace
-
-std::vector<double> rim_forces(const Scene& s) {
-  std::vector<double> forces;
-  for (const ToolState& t : s.tools) {
-    double sum = 0.0;
-    for (std::size_t p = 0; p < s.plies.size(); ++p)
-      if (t.contacts[p].law.loading && t.contacts[p].sums.touching > 0)
-        sum += excess_at_rim(t.body, t.contacts[p], s.plies[p]);
-    forces.push_back(sum);
-  }
-  return forces;
+/// N, by how much plies that give way through their thickness push a tool more than what it covers
+/// of their triangles would, at their pressures.
+double excess_on(const Scene& s, const ToolState& tool) {
+  double sum = 0.0;
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    if (tool.contacts[p].law.loading && tool.contacts[p].sums.touching > 0)
+      sum += excess_at_rim(tool.body, tool.contacts[p], s.plies[p]);
+  return sum;
 }
+
+} // namespace
 
 std::vector<std::string> doubts_of_rims(const Scene& s) {
   std::vector<std::string> found;
-  const std::vector<double> rims = rim_forces(s);
-  for (std::size_t t = 0; t < rims.size(); ++t) {
-    const double force = s.tools[t].force.norm();
-    if (!(std::abs(rims[t]) > tolerable * force)) continue;
+  for (const ToolState& tool : s.tools) {
+    const double force = tool.force.norm(), excess = excess_on(s, tool);
+    if (!(std::abs(excess) > tolerable * force)) continue;
     found.push_back(fmt::format("do not trust the {:.3g} N on {}: nodes at its rim push with the "
-                                "whole of their areas, some "
-                                "{:.2g} N {} than what the rim covers of them; smaller elements "
-                                "there, or a tool as large as "
-                                "the plies",
-                                force, s.tools[t].name, std::abs(rims[t]),
-                                rims[t] > 0.0 ? "more" : "less"));
+                                "whole of their areas, some {:.2g} N {} than what the rim covers "
+                                "of them; smaller elements there, or a tool as large as the plies",
+                                force, tool.name, std::abs(excess),
+                                excess > 0.0 ? "more" : "less"));
   }
   return found;
 }

@@ -12,10 +12,6 @@
 
 namespace plyform {
 
-/// N, of each tool: by how much plies that give way through their thickness push it more than what
-/// it covers of their triangles would, at their pressures.
-std::vector<double> rim_forces(const Scene& s);
-
 /// Doubts about forces of tools whose rims lie within plies.
 std::vector<std::string> doubts_of_rims(const Scene& s);
 

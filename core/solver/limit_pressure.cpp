@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/limit_pressure.hpp"
 
+#include "base/node_normals.hpp"
 #include "core/model/motion.hpp"
 
 #include <algorithm>
@@ -17,9 +18,7 @@ constexpr double most_stretch = 100.0; // no rubber's: what has flown away count
 double largest_stretch(const PlyBody& ply) {
   double most = 0.0;
   for (std::size_t t = 0; t < ply.membrane.triangles.size(); ++t) {
-    const auto [a, b, c] = ply.membrane.triangles[t];
-    const Vec3 from = ply.x[at(a)];
-    const double area = 0.5 * (ply.x[at(b)] - from).cross(ply.x[at(c)] - from).norm();
+    const double area = triangle_area(ply.x, ply.membrane.triangles[t]);
     if (std::isfinite(area)) most = std::max(most, std::sqrt(area / ply.membrane.area[t]));
   }
   return std::min(most, most_stretch);
