@@ -326,13 +326,13 @@ void check_progress(const Scene& s) {
              sound(s.stable_dt) && s.min_dt > 0.0 && s.min_dt <= s.max_dt && sound(s.max_dt) &&
              s.dt >= s.min_dt && s.dt <= s.max_dt,
          "the time step");
-  const double steps = static_cast<double>(s.step);
-  constexpr double rounding = 1e-6;
-  expect(s.time >= s.dt * (1.0 - rounding) && s.time >= steps * s.min_dt * (1.0 - rounding) &&
+  const double steps = static_cast<double>(s.step), rounding = 1e-6;
+  expect(s.time >= std::max(s.dt, steps * s.min_dt) * (1.0 - rounding) &&
              s.time <= steps * s.max_dt * (1.0 + rounding) &&
-             s.time <= solver.duration * (1.0 + solver.dwell) + 2.0 * s.max_dt &&
-             s.cooled_until >= 0.0 && s.cooled_until <= s.time,
+             s.time <= solver.duration * (1.0 + solver.dwell) + 2.0 * s.max_dt,
          "the time");
+  for (const double until : {s.cooled_until, s.tightened_until})
+    expect(until >= 0.0 && until <= s.time, "the time of what follows it");
   check_sums(s, s);
   for (const NodeSums& n : s.node_sums)
     expect(sound(n.damping) && sound(n.moved2) && sound(n.step2), "sums of the nodes");

@@ -36,7 +36,7 @@ Energies current_energies(const Scene& s, ThreadPool& pool) {
   pool.run(static_cast<int>(of_ply.size()), [&](int p) {
     const PlyBody& ply = s.plies[at(p)];
     of_ply[at(p)].kinetic = kinetic_energy(ply, s.dt, s.next_dt, mass_loads(s));
-    of_ply[at(p)].external = work_of_gravity(ply, s.data.gravity) + ply.shear_heat;
+    of_ply[at(p)].external = work_of_gravity(ply, s.data.gravity) + ply.law_work;
   });
   Energies e;
   for (const Energies& ply : of_ply)

@@ -279,7 +279,7 @@ void set_temperatures(PlyBody& ply, std::vector<double> celsius, double before, 
   const PackedStates shear = ply.shear_factors;
   ply.temperature = std::move(celsius);
   find_all_factors(ply, time);
-  if (!shear.empty()) ply.shear_heat += heat_of_shear(ply, shear);
+  if (!shear.empty()) ply.law_work += heat_of_shear(ply, shear);
 }
 
 /// Whether temperatures are to be renewed: now and then, and before any could have changed much.

@@ -27,7 +27,7 @@
 //
 // Elastic shear over temperature, C = f(T) C_e: what it stores, f W, changes with f at a fixed
 // shape too. That is heat which becomes elastic energy, or the other way, and no work of any force:
-// its sum, of W df at each update, is PlyState::shear_heat.
+// its sum, of W df at each update, is PlyState::law_work.
 #pragma once
 
 #include "base/thread_pool.hpp"

@@ -74,9 +74,9 @@ struct PlyState {
   bool resting = false;
   /// N mm, done by pressures since the start, but for what PlyCache::last_load_work has.
   double load_work = 0.0;
-  /// N mm, what changes of temperature at a fixed shape gave to the energy of shear since the
-  /// start.
-  double shear_heat = 0.0;
+  /// N mm, what laws that change with the time gave at a fixed shape to what is stored, since the
+  /// start: shear by its temperature, stitches by pre-tension that comes up.
+  double law_work = 0.0;
   /// What laws with rates keep, as `yarns`: ViscousMembrane::states of each triangle, in the
   /// kernel's order, or empty.
   PackedStates viscous_states;
@@ -88,7 +88,7 @@ struct PlyState {
 /// compile.
 template <class F>
 void each_array(PlyState& ply, F&& f) {
-  auto& [x, velocity, motion, reaction, mass, yarns, temperature, resting, load_work, shear_heat,
+  auto& [x, velocity, motion, reaction, mass, yarns, temperature, resting, load_work, law_work,
          viscous_states, bending_states] = ply;
   f("x", On::node, x);
   f("velocity", On::node, velocity);
@@ -99,7 +99,7 @@ void each_array(PlyState& ply, F&& f) {
   f("temperature", On::node, temperature);
   f("resting", On::ply, resting);
   f("load_work", On::ply, load_work);
-  f("shear_heat", On::ply, shear_heat);
+  f("law_work", On::ply, law_work);
   f("viscous_states", On::pack, viscous_states);
   f("bending_states", On::pack, bending_states);
 }

@@ -201,13 +201,15 @@ struct SceneProgress {
   /// Ratios of thickness at the last search: the largest, the smallest (core/ply/thickness.hpp).
   double thickest = 1.0, thinnest = 1.0;
   double cooled_until = 0.0; ///< s, time of the temperatures (core/solver/follow_temperature.hpp)
+  double tightened_until = 0.0; ///< s, time of the pre-tension (core/solver/pretension.hpp)
 };
 
 template <class F>
 void each_member(SceneProgress& progress, F&& f) {
   auto& [time, step, dt, next_dt, stable_dt, min_dt, max_dt, bound_displacement, time_step_gain,
          next_lanczos, start_energy, mass_damping_work, mass_scaling_work, largest_added_mass,
-         group_sums, torn_sums, searches, thickest, thinnest, cooled_until] = progress;
+         group_sums, torn_sums, searches, thickest, thinnest, cooled_until, tightened_until] =
+      progress;
   f("time", time);
   f("step", step);
   f("dt", dt);
@@ -228,6 +230,7 @@ void each_member(SceneProgress& progress, F&& f) {
   f("thickest", thickest);
   f("thinnest", thinnest);
   f("cooled_until", cooled_until);
+  f("tightened_until", tightened_until);
 }
 
 /// Temporary data of one step.

@@ -109,7 +109,7 @@ TEST(ShearTemperature, HeatIsTheIntegralOfEnergyOverTheFactor) {
   EXPECT_EQ(scene.plies[0].membrane.crossings[0].stiffest, factor_of(data, coldest));
   EXPECT_GE(factor_of(data, coldest), factor_of(data, frames.back().plies[0].temperature[0]));
   const RunResult run = run_scene(scene, 1, {});
-  EXPECT_NEAR(scene.plies[0].shear_heat, heat, 0.01 * heat);
+  EXPECT_NEAR(scene.plies[0].law_work, heat, 0.01 * heat);
   EXPECT_GT(heat, 0.05 * run.last.energy.external);
 }
 
@@ -132,7 +132,7 @@ TEST(ShearTemperature, GoesBackAndComesToTheSame) {
       EXPECT_FALSE(compute_forces(scene, pool));
       move_plies(scene, pool);
     }
-    return scene.plies[0].shear_heat;
+    return scene.plies[0].law_work;
   };
   const double then = step_to(0.05);
   Snapshot good;
@@ -141,7 +141,7 @@ TEST(ShearTemperature, GoesBackAndComesToTheSame) {
   EXPECT_GT(then, 0.0);
   EXPECT_GT(later, 1.5 * then);
   restore(scene, good);
-  EXPECT_EQ(scene.plies[0].shear_heat, then);
+  EXPECT_EQ(scene.plies[0].law_work, then);
   EXPECT_NEAR(step_to(0.08), later, 1e-3 * later); // bounds of the step may be renewed elsewhere
 }
 
