@@ -1,37 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Columns of a curve by name, number, header and unit; and every doubt refused.
-#include "core/identify/curve_file.hpp"
-#include "support/fit_curves.hpp"
+#include "support/curve_reading.hpp"
 
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
-#include <unistd.h>
 
 namespace plyform::curve_columns_test {
 namespace {
 
-namespace fs = std::filesystem;
 using Values = std::vector<double>;
-
-struct Reading {
-  std::optional<Curve> curve;
-  std::string texts;
-};
-
-Reading read(const std::string& text, const CurveColumns& columns) {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const fs::path path = fs::path(::testing::TempDir()) /
-                        (std::string("plyform_columns_") + test->name() + std::to_string(getpid()));
-  std::ofstream(path, std::ios::binary) << text;
-  Reading reading;
-  Diagnostics diagnostics;
-  reading.curve = read_curve(path, columns, diagnostics);
-  reading.texts = texts(diagnostics);
-  fs::remove(path);
-  return reading;
-}
 
 CurveColumns shear() {
   CurveColumns columns;
@@ -46,7 +23,7 @@ TEST(CurveColumns, AreFoundByTheirUnitsWhereverTheyStand) {
         "t,F,phi,d\ns,N,deg,mm\n0,0,0,0\n1,4,30,2\n",
         "specimen A\nmachine 4\nLoad (N)\tExtension (mm)\tShear angle (deg)\n"
         "0\t0\t0\n4\t2\t30\n"}) {
-    const Reading reading = read(text, shear());
+    const CurveReading reading = curve_from(text, shear());
     ASSERT_TRUE(reading.curve) << text << reading.texts;
     EXPECT_EQ(reading.curve->x, (Values{0.0, 2.0})) << text;
     EXPECT_EQ(reading.curve->y, (Values{0.0, 4.0})) << text;
@@ -56,14 +33,14 @@ TEST(CurveColumns, AreFoundByTheirUnitsWhereverTheyStand) {
 }
 
 TEST(CurveColumns, WithoutUnitsAreTwoOrNamed) {
-  EXPECT_TRUE(read("0,0\n1,2\n", shear()).curve);
-  EXPECT_TRUE(read("d,F\n0,0\n1,2\n", shear()).curve);
-  EXPECT_TRUE(read("time_s,d,F\n0,0,0\n1,1,2\n", shear()).curve); // the time is neither
+  EXPECT_TRUE(curve_from("0,0\n1,2\n", shear()).curve);
+  EXPECT_TRUE(curve_from("d,F\n0,0\n1,2\n", shear()).curve);
+  EXPECT_TRUE(curve_from("time_s,d,F\n0,0,0\n1,1,2\n", shear()).curve); // the time is neither
   CurveColumns named = shear();
   named.x.column = "2";
   named.y.column = "1";
   named.y.unit = "kN";
-  const Reading reading = read("0,0,0\n1,2,3\n", named);
+  const CurveReading reading = curve_from("0,0,0\n1,2,3\n", named);
   ASSERT_TRUE(reading.curve) << reading.texts;
   EXPECT_EQ(reading.curve->y, (Values{0.0, 1000.0}));
 }
@@ -72,7 +49,8 @@ TEST(CurveColumns, TakeAStrainInPercentForOne) {
   CurveColumns columns;
   columns.x_is = Quantity::strain;
   columns.x_word = "strain";
-  const Reading reading = read("Extension (mm),Strain (%),Load (N)\n0,0,0\n2,1,46\n", columns);
+  const CurveReading reading =
+      curve_from("Extension (mm),Strain (%),Load (N)\n0,0,0\n2,1,46\n", columns);
   ASSERT_TRUE(reading.curve) << reading.texts;
   EXPECT_EQ(reading.curve->x, (Values{0.0, 0.01}));
 }
@@ -80,7 +58,7 @@ TEST(CurveColumns, TakeAStrainInPercentForOne) {
 TEST(CurveColumns, MayLackTheCrossheadWhereTheAngleIsMeasured) {
   CurveColumns columns = shear();
   columns.angle.column = "gamma_rad";
-  const Reading reading = read("gamma_rad,force_N\n0,0\n0.5,3\n", columns);
+  const CurveReading reading = curve_from("gamma_rad,force_N\n0,0\n0.5,3\n", columns);
   ASSERT_TRUE(reading.curve) << reading.texts;
   EXPECT_EQ(reading.curve->angle, (Values{0.0, 0.5}));
   EXPECT_EQ(reading.curve->x_name, "");
@@ -91,7 +69,7 @@ TEST(CurveColumns, AreAnglesWithoutBeingNamedWhereThereIsNoExtension) {
   CurveColumns columns = shear();
   columns.y = {"A", "N/mm"};
   columns.y_also = Quantity::force_per_length;
-  const Reading reading = read(laboratories, columns);
+  const CurveReading reading = curve_from(laboratories, columns);
   ASSERT_TRUE(reading.curve) << reading.texts;
   EXPECT_EQ(reading.curve->x_name, "");
   EXPECT_EQ(reading.curve->y, (Values{1.0, 3.0}));
@@ -99,31 +77,31 @@ TEST(CurveColumns, AreAnglesWithoutBeingNamedWhereThereIsNoExtension) {
   EXPECT_NEAR(reading.curve->angle[1], std::numbers::pi / 6.0, 1e-15);
   EXPECT_EQ(rows_of(*reading.curve, {1}).y_is, Quantity::force_per_length);
   columns.y = {};
-  EXPECT_NE(read(laboratories, columns).texts.find("that it is the load, a force"),
+  EXPECT_NE(curve_from(laboratories, columns).texts.find("that it is the load, a force"),
             std::string::npos);
   // As many unknown columns as are needed are extension and load, as without an angle.
-  EXPECT_EQ(read("d,gamma_deg,F\n0,0,0\n2,30,4\n", columns).curve->x, (Values{0.0, 2.0}));
+  EXPECT_EQ(curve_from("d,gamma_deg,F\n0,0,0\n2,30,4\n", columns).curve->x, (Values{0.0, 2.0}));
 }
 
 TEST(CurveColumns, OfForcePerLengthAreForTestsThatTakeThem) {
   CurveColumns columns = shear();
   const char* header = "gamma_deg,shear force (N/mm)\n0,0\n30,4\n";
-  EXPECT_NE(read(header, columns).texts.find("no column says"), std::string::npos);
+  EXPECT_NE(curve_from(header, columns).texts.find("no column says"), std::string::npos);
   columns.no_per_length = "it is not the test's";
   for (const char* column : {"", "2"}) {
     columns.y.column = column;
     EXPECT_NE(
-        read(header, columns)
+        curve_from(header, columns)
             .texts.find("shear force (N/mm) = N/mm: is a force per length, the load must be a "
                         "force: it is not the test's; take the load as measured, in N"),
         std::string::npos)
-        << column << read(header, columns).texts;
+        << column << curve_from(header, columns).texts;
   }
   columns.y_also = Quantity::force_per_length;
   columns.no_per_length = {};
-  EXPECT_TRUE(read(header, columns).curve);
+  EXPECT_TRUE(curve_from(header, columns).curve);
   columns.y.unit = "mm";
-  EXPECT_NE(read(header, columns).texts.find("give one of N, kN"), std::string::npos);
+  EXPECT_NE(curve_from(header, columns).texts.find("give one of N, kN"), std::string::npos);
 }
 
 TEST(CurveColumns, OfAnotherKindOrInDoubtAreRefused) {
@@ -149,7 +127,7 @@ TEST(CurveColumns, OfAnotherKindOrInDoubtAreRefused) {
     columns.x.column = w.x;
     columns.y.column = w.y;
     columns.y.unit = w.unit;
-    const Reading reading = read(w.text, columns);
+    const CurveReading reading = curve_from(w.text, columns);
     EXPECT_FALSE(reading.curve) << w.text;
     EXPECT_NE(reading.texts.find(w.message), std::string::npos)
         << w.text << "expected: " << w.message << "\nfound: " << reading.texts;
@@ -157,7 +135,8 @@ TEST(CurveColumns, OfAnotherKindOrInDoubtAreRefused) {
 }
 
 TEST(CurveColumns, PreferTheWordsOfTheTest) {
-  const Reading reading = read("Width (mm),Extension (mm),Load (N)\n25,0,0\n25,1,2\n", shear());
+  const CurveReading reading =
+      curve_from("Width (mm),Extension (mm),Load (N)\n25,0,0\n25,1,2\n", shear());
   ASSERT_TRUE(reading.curve) << reading.texts;
   EXPECT_EQ(reading.curve->x, (Values{0.0, 1.0}));
 }

@@ -1,38 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every name in the table of units, in every place of a curve where a unit may stand, and units
 // that are not in it refused by each of them.
-#include "core/identify/curve_file.hpp"
 #include "core/identify/test_columns.hpp"
-#include "support/fit_curves.hpp"
+#include "support/curve_reading.hpp"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace plyform::unit_readers_test {
 namespace {
 
-namespace fs = std::filesystem;
 using Q = Quantity;
-
-struct Reading {
-  std::optional<Curve> curve;
-  std::string texts;
-};
-
-Reading read(const std::string& text, const CurveColumns& columns) {
-  const fs::path path =
-      fs::path(::testing::TempDir()) / ("plyform_unit_readers_" + std::to_string(getpid()));
-  std::ofstream(path, std::ios::binary) << text;
-  Reading reading;
-  Diagnostics diagnostics;
-  reading.curve = read_curve(path, columns, diagnostics);
-  reading.texts = texts(diagnostics);
-  fs::remove(path);
-  return reading;
-}
 
 std::string quoted(const std::string& text) {
   std::string field = "\"";
@@ -101,13 +79,14 @@ TEST(UnitReaders, KnowEveryNameOfTheTable) {
       // what is said in one word; of "pound-force" its words stand for other things at an end
       const bool one_word = unit.find_first_of("-\"") == std::string::npos;
       for (const std::string& header : headers(place, unit, one_word)) {
-        const Reading reading = read(header + rows, place.columns);
+        const CurveReading reading = curve_from(header + rows, place.columns);
         ASSERT_TRUE(reading.curve) << header << reading.texts;
         EXPECT_DOUBLE_EQ(read_number(place, *reading.curve), 3.0 * factor) << header;
       }
       CurveColumns columns = place.columns;
       (place.is_y ? columns.y : columns.x).unit = unit;
-      const Reading reading = read(quoted("a") + "," + quoted("b") + "\n" + rows, columns);
+      const CurveReading reading =
+          curve_from(quoted("a") + "," + quoted("b") + "\n" + rows, columns);
       ASSERT_TRUE(reading.curve) << unit << reading.texts;
       EXPECT_DOUBLE_EQ(read_number(place, *reading.curve), 3.0 * factor) << unit;
     }
@@ -117,7 +96,7 @@ TEST(UnitReaders, OfMeasuredAnglesToo) {
   for (const std::string& unit : unit_names(Q::angle)) {
     CurveColumns columns = shear_columns(true);
     columns.angle = {"phi", unit};
-    const Reading reading = read("extension,load,phi\n0,0,0\n1,1,0.5\n", columns);
+    const CurveReading reading = curve_from("extension,load,phi\n0,0,0\n1,1,0.5\n", columns);
     ASSERT_TRUE(reading.curve) << unit << reading.texts;
     EXPECT_DOUBLE_EQ(reading.curve->angle[1], 0.5 * find_unit(unit)->factor) << unit;
   }
@@ -136,21 +115,21 @@ TEST(UnitReaders, RefuseWhatIsNotInIt) {
     for (const std::string unit : not_known) {
       ASSERT_FALSE(find_unit(unit)) << unit;
       for (const std::string& header : headers(place, unit)) {
-        const Reading reading = read(header + rows, place.columns);
+        const CurveReading reading = curve_from(header + rows, place.columns);
         EXPECT_FALSE(reading.curve) << header;
         EXPECT_NE(reading.texts.find(" = " + unit + ": is no unit of "), std::string::npos)
             << header << reading.texts;
         EXPECT_NE(reading.texts.find("give one of "), std::string::npos) << reading.texts;
         CurveColumns columns = place.columns; // but where the user says what it is
         (place.is_y ? columns.y : columns.x).unit = unit_names(place.quantity).front();
-        EXPECT_TRUE(read(header + rows, columns).curve) << header;
+        EXPECT_TRUE(curve_from(header + rows, columns).curve) << header;
       }
       CurveColumns columns = place.columns;
       (place.is_y ? columns.y : columns.x).unit = unit;
-      EXPECT_FALSE(read("a,b\n0,0\n3,3\n", columns).curve) << unit;
+      EXPECT_FALSE(curve_from("a,b\n0,0\n3,3\n", columns).curve) << unit;
       columns = shear_columns(true);
       columns.angle = {"phi", unit};
-      EXPECT_FALSE(read("extension,load,phi\n0,0,0\n1,1,0.5\n", columns).curve) << unit;
+      EXPECT_FALSE(curve_from("extension,load,phi\n0,0,0\n1,1,0.5\n", columns).curve) << unit;
     }
 }
 
@@ -159,12 +138,13 @@ TEST(UnitReaders, TakeWordsThatAreNoUnits) {
        {"extension (crosshead),load (cell 2)\n", "extension_1,load_2\n", "extension A,load B\n",
         "Crosshead extension,Load cell\n", "extension (mm) (raw),load (kN) (filtered)\n",
         "extension_mm_raw,load_kN_mean\n", "mm extension,kN load\n", "extension,load\nraw,mean\n"})
-    EXPECT_TRUE(read(std::string(header) + rows, shear_columns(true)).curve) << header;
-  const Reading reading = read("mm extension,kN load peak\n0,0\n3,3\n", shear_columns(true));
+    EXPECT_TRUE(curve_from(std::string(header) + rows, shear_columns(true)).curve) << header;
+  const CurveReading reading =
+      curve_from("mm extension,kN load peak\n0,0\n3,3\n", shear_columns(true));
   ASSERT_TRUE(reading.curve) << reading.texts;
   EXPECT_DOUBLE_EQ(reading.curve->y[1], 3000.0);
   EXPECT_DOUBLE_EQ(
-      read("extension (mm),load (pound force)\n0,0\n3,3\n", shear_columns(true)).curve->y[1],
+      curve_from("extension (mm),load (pound force)\n0,0\n3,3\n", shear_columns(true)).curve->y[1],
       3.0 * 4.4482216152605);
 }
 
@@ -201,32 +181,33 @@ TEST(UnitReaders, RefuseOtherMeasures) {
     (column.is_y ? named.y : named.x).column = column.name;
     const std::string head =
         column.is_y ? "first," + std::string(column.name) : std::string(column.name) + ",second";
-    const Reading reading = read(head + "\n" + rows, named);
+    const CurveReading reading = curve_from(head + "\n" + rows, named);
     EXPECT_FALSE(reading.curve) << column.name;
     EXPECT_NE(reading.texts.find(std::string("is ") + column.word), std::string::npos)
         << column.name << reading.texts;
   }
   for (const char* name : {"Engineering stress (MPa)", "nominal stress (MPa)", "stress"})
-    EXPECT_TRUE(read("strain," + std::string(name) + "\n" + rows, rubber).curve) << name;
+    EXPECT_TRUE(curve_from("strain," + std::string(name) + "\n" + rows, rubber).curve) << name;
 }
 
 TEST(UnitReaders, PreferTheMeasureThatATestTakes) {
-  const Reading reading =
-      read("true strain,strain,true stress (MPa),engineering stress (MPa)\n0,0,0,0\n0.1,0.2,5,4\n",
-           rubber_columns(false, false));
+  const CurveReading reading = curve_from(
+      "true strain,strain,true stress (MPa),engineering stress (MPa)\n0,0,0,0\n0.1,0.2,5,4\n",
+      rubber_columns(false, false));
   ASSERT_TRUE(reading.curve) << reading.texts;
   EXPECT_EQ(reading.curve->x[1], 0.2);
   EXPECT_EQ(reading.curve->y[1], 4.0);
-  const Reading frame = read("extension,load,angle between yarns (deg)\n0,0,90\n3,3,80\n",
-                             shear_columns(true)); // is not needed
+  const CurveReading frame =
+      curve_from("extension,load,angle between yarns (deg)\n0,0,90\n3,3,80\n",
+                 shear_columns(true)); // is not needed
   ASSERT_TRUE(frame.curve) << frame.texts;
   EXPECT_TRUE(frame.curve->angle.empty());
 }
 
 TEST(UnitReaders, TakeAStretchInAnyUnitForAStretch) {
   for (const char* header : {"stretch", "stretch (-)", "stretch (mm/mm)", "lambda [-]"}) {
-    const Reading reading =
-        read(std::string(header) + ",stress (MPa)\n1,0\n1.5,3\n", rubber_columns(false, false));
+    const CurveReading reading = curve_from(std::string(header) + ",stress (MPa)\n1,0\n1.5,3\n",
+                                            rubber_columns(false, false));
     ASSERT_TRUE(reading.curve) << header << reading.texts;
     EXPECT_EQ(quantity_name(reading.curve->x_is), "stretch") << header;
   }
@@ -234,12 +215,12 @@ TEST(UnitReaders, TakeAStretchInAnyUnitForAStretch) {
 
 TEST(UnitReaders, ShowWhatTheFileHas) {
   CurveColumns columns = shear_columns(true);
-  Reading reading = read("extension (in),load (kN)\n0,0\n30,-0.001\n", columns);
+  CurveReading reading = curve_from("extension (in),load (kN)\n0,0\n30,-0.001\n", columns);
   ASSERT_TRUE(reading.curve) << reading.texts;
   EXPECT_EQ(written_x(*reading.curve, 1), "30");
   EXPECT_EQ(written_y(*reading.curve, 1), "-0.001");
   columns.x.unit = "in";
-  reading = read("d,load (kN)\n0,0\n30,-0.001\n", columns);
+  reading = curve_from("d,load (kN)\n0,0\n30,-0.001\n", columns);
   ASSERT_TRUE(reading.curve) << reading.texts;
   EXPECT_EQ(written_x(*reading.curve, 1), "30 in");
   reading.curve->y[1] -= 2.0;
