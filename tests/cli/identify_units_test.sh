@@ -90,24 +90,22 @@ expect 2 'comes out of the curves and must be at least' \
   identify pull-out "${pulled[@]}" --pressures 1e-308 0.05 0.05 --area 4000
 
 # Compaction in kPa, of a table and of the formula.
-packed() { # TABLE STIFFNESS: a plate on two plies, one by each law
+pressed() { # NAME COMPACTION: a fabric
   cat <<END
-[fabrics.table]
+[fabrics.$1]
 surface_density = 600.0
 thickness = 0.6
 fibre_density = 2.55
 warp = { density = 0.25, stiffness = 46000.0 }
 weft = { density = 0.25, stiffness = 46000.0 }
 shear = { polynomial = [0.4] }
-compaction = { table = $1 }
-[fabrics.formula]
-surface_density = 600.0
-thickness = 0.6
-fibre_density = 2.55
-warp = { density = 0.25, stiffness = 46000.0 }
-weft = { density = 0.25, stiffness = 46000.0 }
-shear = { polynomial = [0.4] }
-compaction = { stiffness = $2, exponent = 8.0, densest = 0.62 }
+compaction = $2
+END
+}
+packed() { # TABLE STIFFNESS: a plate on two plies, one by each law
+  pressed table "{ table = $1 }"
+  pressed formula "{ stiffness = $2, exponent = 8.0, densest = 0.62 }"
+  cat <<END
 [blanks.square]
 size = [20.0, 20.0]
 element_size = 5.0

@@ -69,8 +69,9 @@ class TimeLeft:
 
 class Progress:
     """`what`: the work, as a user calls it. staged: its fractions are those of stages, of which nobody
-    knows how long they take; then what has passed is told in the place of what is left. A thread draws what was shown last, as some steps take
-    long. What a copy of the process shows (base/apart.py) is drawn too: it stands in shared memory."""
+    knows how long they take; then what has passed is told in the place of what is left. A thread draws
+    what was shown last, as some steps take long. What a copy of the process shows (base/apart.py) is
+    drawn too: it stands in shared memory."""
 
     def __init__(self, what: str, staged: bool = False):
         self.what, self.process, self.shown = what, os.getpid(), mmap.mmap(-1, SHOWN)

@@ -55,7 +55,8 @@ SUMMARY = {
                                         "intersections_between_plies",
                                         "intersections_within_plies")},
     "pairs": ({"a": TEXT, "b": TEXT},), "assumed": (TEXT,), "could_be_left_out": (TEXT,),
-    "missing": (TEXT,), "doubts": (TEXT,), "advice": (TEXT,), "case": {...: TEXT}, "verification": {"figures": (FIGURE,)}}
+    "missing": (TEXT,), "doubts": (TEXT,), "advice": (TEXT,), "case": {...: TEXT},
+    "verification": {"figures": (FIGURE,)}}
 STATUSES = ("done", "doubtful", "stopped", "interrupted")
 NEEDED = ("status", "plies", "tools", "energy", "contact")
 
