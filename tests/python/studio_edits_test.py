@@ -59,7 +59,7 @@ def edits_of(data, path, value):
     if isinstance(value, bool):
         yield {"op": "set", "key": key, "value": not value}
     elif isinstance(value, (int, float)):
-        yield {"op": "set", "key": key, "value": 42}
+        yield {"op": "set", "key": key, "value": 43 if value == 42 else 42}
     elif isinstance(value, str):
         yield {"op": "set", "key": key, "value": ODD}
     elif isinstance(value, list):
