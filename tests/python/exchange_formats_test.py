@@ -9,6 +9,7 @@ Leaves with 77 when numpy, scipy, h5py, meshio or VTK is missing.
 
 import csv
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -406,6 +407,69 @@ def check_wrong(results, folder):
     assert not (folder / "wrong").exists()
 
 
+DIAPHRAGM = """
+[fabrics]
+glass = "fabrics/glass_plain_weave.toml"
+rubber = {law = "neo_hookean", surface_density = 1100.0, thickness = 1.0, neo_hookean = {shear_modulus = 0.4}}
+foil = {law = "isotropic", surface_density = 100.0, thickness = 0.1, isotropic = {youngs_modulus = 50.0, poissons_ratio = 0.3}}
+[blanks]
+small = {size = [72.0, 72.0], element_size = 12.0}
+big = {size = [120.0, 120.0], element_size = 12.0}
+[stack]
+bottom = 0.0
+[solver]
+duration = 0.002
+fibre_softening = 200.0
+[[ply]]
+name = "cloth"
+fabric = "glass"
+blank = "small"
+angle = 0.0
+[[ply]]
+name = "foil"
+fabric = "foil"
+blank = "small"
+angle = 0.0
+[[ply]]
+name = "skin"
+fabric = "rubber"
+blank = "big"
+angle = 0.0
+[[tool]]
+name = "dome"
+shape = "sphere"
+radius = 60.0
+position = [0.0, 0.0, 62.0]
+motion = "driven"
+stroke = 0.5
+"""
+
+
+def check_process_aids(folder):
+    """The lay-up of a part is its fibres: diaphragm and foil are in no file unless asked for, and told."""
+    shutil.copytree(CASES / "fabrics", folder / "fabrics")
+    (folder / "case.toml").write_text(DIAPHRAGM, encoding="utf-8")
+    run, part, trim = folder / "pressed", folder / "plane.inp", folder / "trim.csv"
+    call("run", folder / "case.toml", "--threads", "1", "-o", run)
+    mesh = disc(20.0, False)
+    mesh.nodes[:, 2] = 0.0
+    part.write_text(abaqus_text(mesh), encoding="utf-8")
+    trim.write_text("x,y\n-30,-30\n30,-30\n30,30\n-30,30\n", encoding="utf-8")
+    for words in (("map", run, "--onto", part, "--format", ALL, "-o", folder / "a"),
+                  ("map", run, "--format", ALL, "-o", folder / "b"),
+                  ("pattern", run, "--trim", trim, "-o", folder / "c")):
+        done = call(*words)
+        assert "left out, without fibres: foil, skin (--ply" in done.stdout, done
+        for file in Path(words[-1]).iterdir():
+            assert not file.name.startswith(("skin", "foil")), file
+            told = [line for line in file.read_bytes().splitlines() if b"skin" in line]
+            assert all(b"left out, without fibres" in line for line in told), (file, told)
+    done = call("map", run, "--ply", "skin", "--format", "csv", "-o", folder / "d")
+    assert (folder / "d/skin.csv").exists() and "left out" not in done.stdout, done
+    (run / "summary.json").unlink()  # as while a run goes on: rubber is known by its columns
+    assert "left out, without fibres: skin (--ply" in call("map", run, "-o", folder / "e").stdout
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -419,6 +483,7 @@ def main():
         check_part(results, folder / "down", True)
         check_axes(results, folder / "axes")
         check_wrong(results, folder)
+        check_process_aids(folder)
 
 
 if __name__ == "__main__":

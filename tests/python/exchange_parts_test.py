@@ -273,6 +273,40 @@ def check_k_axes(folder):
     assert mesh.axes is None and "MCID 9" in str(mesh.notes) and "AOPT" in str(mesh.notes)
 
 
+def check_offsets(folder):
+    """Offsets are told, whatever the format calls them; what is none is not."""
+    inp = "*NODE\n1,0,0,0\n2,9,0,0\n3,9,9,0\n*ELEMENT,TYPE=S3,ELSET=E\n1,1,2,3\n*SHELL SECTION,ELSET=E"
+    bdf = "GRID,1,,0.,0.,0.\nGRID,2,,9.,0.,0.\nGRID,3,,9.,9.,0.\n"
+    short = f"CTRIA3  {1:8d}{1:8d}{1:8d}{2:8d}{3:8d}{'':8}"
+    k = "*KEYWORD\n*NODE\n1,0,0,0\n2,9,0,0\n3,9,9,0\n*ELEMENT_SHELL"
+    shell, section = "\n1,1,1,2,3,3\n", "*SECTION_SHELL_TITLE\nskin\n1,2\n1.,1.,1.,1."
+    cdb = ("ET,1,181\nNBLOCK,6,SOLID,3,3\n(3i9,6e21.13e3)\n" + "".join(
+        f"{n:9d}{0:9d}{0:9d}{x:21.13E}{y:21.13E}\n" for n, x, y in ((1, 0, 0), (2, 9, 0), (3, 9, 9)))
+        + "N,R5.3,LOC,      -1,\nEBLOCK,19,SOLID,1,1\n(19i9)\n"
+        + "".join(f"{n:9d}" for n in (1, 1, 1, 1, 0, 0, 0, 0, 4, 0, 1, 1, 2, 3, 3)) + "\n       -1\n")
+    for name, text, told in (
+            ("a.inp", f"{inp}, OFFSET=0.5\n1.\n", "OFFSET of *SHELL SECTION"),
+            ("a.inp", f"{inp}, offset=SPOS\n1.\n", "OFFSET of *SHELL SECTION"),
+            ("a.inp", f"{inp}, OFFSET=0.0\n1.\n", ""), ("a.inp", f"{inp}\n1.\n", ""),
+            ("a.bdf", f"{bdf}CTRIA3,1,1,1,2,3,,0.5\n", "ZOFFS of CTRIA3"),
+            ("a.bdf", f"{bdf}{short}{0.5:8.3f}\n", "ZOFFS of CTRIA3"),
+            ("a.bdf", f"{bdf}{short}{0.0:8.3f}\n", ""), ("a.bdf", f"{bdf}{short}\n", ""),
+            ("a.bdf", f"{bdf}{short}\nPCOMP,1,-1.0\n", "Z0 of PCOMP"), ("a.bdf", f"{bdf}{short}\nPCOMP,1\n", ""),
+            ("a.bdf", f"{bdf}{short}\nPSHELL,1,1,1.0,,,,,,\n,,,,,0.5\n", "ZOFFS of PSHELL"),
+            ("a.k", f"{k}_OFFSET{shell}0.25\n*END\n", "OFFSET of *ELEMENT_SHELL"),
+            ("a.k", f"{k}_OFFSET{shell}0.0\n*END\n", ""),
+            ("a.k", f"{k}{shell}{section},-1.0\n*END\n", "NLOC of *SECTION_SHELL"),
+            ("a.k", f"{k}{shell}{section}\n*END\n", ""),
+            ("a.cdb", f"{cdb}SECOFFSET,TOP\n", "SECOFFSET"), ("a.cdb", f"{cdb}SECO,USER,0.3\n", "SECOFFSET"),
+            ("a.cdb", f"{cdb}SECOFFSET,MID\n", ""), ("a.cdb", cdb, "")):
+        mesh = read(folder, name, text)
+        found = [words for words in mesh.notes if "offsets" in words]
+        assert len(found) == bool(told) and told in "".join(found), (text, mesh.notes)
+        (mapped,), _ = map_all([dome_ply(0.0)], disc(6.0, False, reach=40.0), 5.0, 0.5, False)
+        assert ("not taken over" in "\n".join(Layup(mesh, [mapped], "side", "", False,
+                                                    tuple(mesh.notes)).head())) == bool(told)
+
+
 def check_along_normal():
     """Where the reference is along the normal another axis is taken: told with number and place, and how
     far it turns from an element to the next."""
@@ -299,4 +333,5 @@ if __name__ == "__main__":
         check_kinds(Path(where))
         check_cards(Path(where))
         check_axes(Path(where))
+        check_offsets(Path(where))
     check_along_normal()

@@ -9,9 +9,14 @@ import numpy as np
 
 from base.progress import told
 from base.results_file import Broken, Results, read_results
+from base.summary_file import read_summary
 from plotting.reading import Trouble
 
 from exchange.shell_mesh import ShellMesh, triangle_normals
+
+
+WITH_YARNS = ("woven", "families")  # laws of fabrics; others are of sheets
+OF_RUBBER = "stretch_1"             # a column that plies of rubber have, also while a run goes on
 
 
 @dataclass
@@ -34,6 +39,7 @@ class FormedPly:
     areal_weight: np.ndarray | None = None  # m, g/m2
     fibre_density: float | None = None      # kg/m3
     gap: np.ndarray | None = None           # m, mm, of the closed mould; NaN where there is none
+    fibres: bool = True                     # False: a diaphragm or foil, whose directions are drawn on it
 
     @property
     def woven(self) -> bool:
@@ -60,12 +66,45 @@ class FormedStack:
     frame: int
     stroke_mm: float
     plies: list[FormedPly]  # from the bottom of the stack
+    left_out: tuple[str, ...] = ()  # names of process aids
+
+    def leave_out_aids(self) -> None:
+        """The lay-up of the part is its fibres: sheets without them stay on the press. Raises Trouble if
+        nothing is left."""
+        self.left_out = tuple(ply.name for ply in self.plies if not ply.fibres)
+        self.plies = [ply for ply in self.plies if ply.fibres]
+        if not self.plies:
+            raise Trouble(f"{self.folder} has no ply with fibres; --ply {self.left_out[0]} takes a sheet "
+                          "without them")
+
+    def left_out_words(self) -> str:
+        """Empty if nothing is."""
+        if not self.left_out:
+            return ""
+        names = ", ".join(self.left_out)
+        return f"left out, without fibres: {names} (--ply takes in what it names)"
 
 
 def read_formed(folder: Path, frame: int = -1, only: list[str] | None = None) -> FormedStack:
     """Frame -1 is the last. Raises Trouble if there is no such state or ply, or a number is not
     finite."""
-    return read_results(folder, lambda results: stack_of(results, folder, frame, only or []))
+    stack = read_results(folder, lambda results: stack_of(results, folder, frame, only or []))
+    for name in sheets_of(folder):
+        for ply in stack.plies:
+            ply.fibres = ply.fibres and ply.name != name
+    return stack
+
+
+def sheets_of(folder: Path) -> list[str]:
+    """Plies of fabrics without yarns, of a run that has ended: its summary has its case."""
+    try:
+        case = read_summary(folder, ()).get("case", {})
+    except Trouble:  # of a run that goes on there is none
+        return []
+    plies = [key[len("ply."):-len(".fabric")] for key in case
+             if key.startswith("ply.") and key.endswith(".fabric")]
+    return [name for name in plies
+            if case.get(f"fabrics.{case[f'ply.{name}.fabric']}.law", WITH_YARNS[0]) not in WITH_YARNS]
 
 
 def stack_of(results: Results, folder: Path, frame: int, only: list[str]) -> FormedStack:
@@ -128,10 +167,11 @@ def ply_of(results: Results, number: int, name: str) -> FormedPly:
     between = float((angles[1] - angles[0]) % 180.0) if len(families) > 1 else 90.0
     if not (thickness > 0).all() or not (flat > 0).all():
         raise Broken(f"{now.name}/thickness_mm is not above 0 everywhere")
+    fibres = OF_RUBBER not in (column.name for column in results.columns(name))
     return FormedPly(name, results.number(fixed, "angle_deg"), x0,
                      x, triangles, warp, weft, shear,
                      thickness, float(flat.mean()), between, families, tuple(map(float, angles)),
-                     tuple(further), *through_thickness(results, number, name, thickness))
+                     tuple(further), *through_thickness(results, number, name, thickness), fibres)
 
 
 def through_thickness(results: Results, number: int, name: str, thickness: np.ndarray) -> tuple:

@@ -17,6 +17,7 @@ from exchange.bdf_axes import give_axes
 from exchange.bulk_data import Entries, entries_of
 from exchange.deck_lines import Fields, bounded, mended, number, whole
 from exchange.deck_mesh import Deck
+from exchange.part_offsets import Offsets
 from exchange.shell_mesh import ShellMesh
 
 # corners, all nodes; THETA or MCID stands in the field after the nodes, but in that of CQUAD8 four
@@ -24,6 +25,9 @@ from exchange.shell_mesh import ShellMesh
 SHELLS = {"CTRIA3": (3, 3), "CTRIAR": (3, 3), "CTRIA6": (3, 6), "CQUAD4": (4, 4), "CQUADR": (4, 4),
           "CQUAD8": (4, 8), "CQUAD": (4, 9)}
 THETA = {name: 3 + nodes + (4 if name == "CQUAD8" else 0) for name, (_, nodes) in SHELLS.items()}
+# fields of properties with the laminate's place over the nodes; elements have ZOFFS behind THETA. OptiStruct's
+# PSHELL has one; PCOMP's bottom is half of the thickness below the nodes where Z0 is blank
+OFFSETS = {"PSHELL": ("ZOFFS", 13), "PCOMP": ("Z0", 2), "PCOMPG": ("Z0", 2), "PCOMPP": ("Z0", 2)}
 # entries that begin with C and are elements, but no shells
 OTHERS = {"CHEXA", "CPENTA", "CTETRA", "CPYRA", "CPYRAM", "CBAR", "CBEAM", "CBEAM3", "CBEND",
           "CROD", "CONROD", "CTUBE", "CBUSH", "CBUSH1D", "CBUSH2D", "CELAS1", "CELAS2", "CELAS3",
@@ -36,7 +40,7 @@ NO_ELEMENTS = re.compile(r"(CORD|CELL|CSET|CSUP|CTRL|CNVR|CYJOIN|CYSYM|CYAX|CYSU
 
 
 def read_bdf(path: Path) -> ShellMesh:
-    deck, axes, files = Deck(path), {}, entries_of(path)
+    deck, axes, offsets, files = Deck(path), {}, Offsets(), entries_of(path)
     for entries in files:
         for name, some in entries.items():
             if name == "GRID":
@@ -44,7 +48,10 @@ def read_bdf(path: Path) -> ShellMesh:
             elif name == "GRDSET":
                 expect_basic(some)
             elif name in SHELLS:
-                add_shells(deck, some, name, axes)
+                add_shells(deck, some, name, axes, offsets)
+            elif name in OFFSETS:
+                for _, fields in some.each():
+                    offsets.note(f"{OFFSETS[name][0]} of {name}", "".join(fields[OFFSETS[name][1]:][:1]))
             elif name in OTHERS:
                 deck.left_out[name] += len(some.lines)
             elif re.match(r"C[A-Z]+\d*$", name) and not NO_ELEMENTS.match(name):
@@ -53,6 +60,7 @@ def read_bdf(path: Path) -> ShellMesh:
                                          "file, or write them as one of these")
     mesh = deck.mesh()
     give_axes(mesh, axes, files)
+    offsets.tell(mesh)
     return mesh
 
 
@@ -104,15 +112,17 @@ def add_columns(deck: Deck, entries: Entries, rows: list[int], texts: list[str],
     return True
 
 
-def add_shells(deck: Deck, entries: Entries, name: str, axes: dict[int, float | int | str]) -> None:
+def add_shells(deck: Deck, entries: Entries, name: str, axes: dict[int, float | int | str],
+               offsets: Offsets) -> None:
     """`axes` gets the words of THETA or MCID by the number of the element."""
     corners, nodes = SHELLS[name]
-    if nodes == corners and not entries.more and add_short(deck, entries, name, axes):
+    if nodes == corners and not entries.more and add_short(deck, entries, name, axes, offsets):
         return
     labels, parts, table, lines = [], [], [], []
     for line, fields in entries.each():
         label = whole(line, fields[1], "an element's number")
-        fields += [""] * (THETA[name] + 1 - len(fields))
+        fields += [""] * (THETA[name] + 2 - len(fields))
+        offsets.note(f"ZOFFS of {name}", fields[THETA[name] + 1])
         ends = [whole(line, word or "0", f"a node of element {label}")
                 for word in fields[3:3 + nodes]]
         middles = ends[corners:2 * corners]
@@ -125,12 +135,12 @@ def add_shells(deck: Deck, entries: Entries, name: str, axes: dict[int, float | 
     deck.add_shells(entries.path, lines, labels, parts, table)
 
 
-def add_short(deck: Deck, entries: Entries, name: str, axes: dict) -> bool:
+def add_short(deck: Deck, entries: Entries, name: str, axes: dict, offsets: Offsets) -> bool:
     """Elements on one line of small fields each, all at once."""
     if any("," in text or "*" in text[:8] or "\t" in text for text in entries.texts):
         return False
     corners, theta = SHELLS[name][0], THETA[name]
-    fields = Fields(entries.texts, 8 * (theta + 1))
+    fields = Fields(entries.texts, 8 * (theta + 2))
     try:
         label, part, *ends = (fields.whole(8 * k, 8 * k + 8) for k in range(1, 3 + corners))
     except ValueError:
@@ -141,6 +151,9 @@ def add_short(deck: Deck, entries: Entries, name: str, axes: dict) -> bool:
     for row in np.flatnonzero(~fields.blank(8 * theta, 8 * theta + 8)):
         axes[int(label[row])] = angle_or_system(entries.line(row), words[row].decode().strip(),
                                                 int(label[row]))
+    off = fields.words(8 * theta + 8, 8 * theta + 16)
+    for row in np.flatnonzero(~fields.blank(8 * theta + 8, 8 * theta + 16)):
+        offsets.note(f"ZOFFS of {name}", off[row].decode())
     deck.add_shells(entries.path, entries.lines, label, part, ends)
     return True
 

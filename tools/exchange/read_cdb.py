@@ -9,6 +9,7 @@ import numpy as np
 
 from exchange.deck_lines import Fields, Line, number, texts_of, whole
 from exchange.deck_mesh import Deck
+from exchange.part_offsets import Offsets
 from exchange.shell_mesh import ShellMesh
 
 SHELLS = {28, 41, 43, 63, 91, 93, 99, 131, 132, 157, 181, 208, 209, 281}
@@ -41,7 +42,7 @@ class Archive:
 
 
 def read_cdb(path: Path) -> ShellMesh:
-    archive, row = Archive(Deck(path), texts_of(path)), 0
+    archive, offsets, row = Archive(Deck(path), texts_of(path)), Offsets(), 0
     while row < len(archive.texts):
         line = archive.line(row)
         words = [word.strip() for word in line.text.split(",")]
@@ -50,6 +51,8 @@ def read_cdb(path: Path) -> ShellMesh:
         if command == "ET" and len(words) >= 3:
             archive.types[whole(line, words[1], "an element type")] = whole(
                 line, re.sub(r"^[A-Za-z]+", "", words[2]), "an element")
+        elif command.startswith("SECO"):  # ..., TOP, or BOT, or USER with a number
+            offsets.note("SECOFFSET", words[2] if words[1:2] == ["USER"] and len(words) > 2 else "".join(words[1:2]))
         elif command == "NBLOCK":
             row = read_nodes(archive, row)
         elif command == "EBLOCK":
@@ -60,6 +63,7 @@ def read_cdb(path: Path) -> ShellMesh:
     mesh = archive.deck.mesh()
     if archive.systems:
         mesh.notes.append(f"ESYS, the coordinate systems of {archive.systems} elements: not used")
+    offsets.tell(mesh)
     return mesh
 
 

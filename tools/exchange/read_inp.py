@@ -15,7 +15,8 @@ import numpy as np
 
 from exchange.deck_lines import Line, are_whole, by_commas, included, number, texts_of, whole
 from exchange.deck_mesh import Deck
-from exchange.inp_axes import Sections
+from exchange.inp_axes import SECTIONS, Sections
+from exchange.part_offsets import Offsets
 from exchange.shell_mesh import ShellMesh
 
 # shells, heat shells, membranes, rigid ones, and plane elements, which meshers write for surfaces
@@ -40,7 +41,7 @@ class Block:
 
 
 def read_inp(path: Path) -> ShellMesh:
-    deck, parts, sections = Deck(path), {}, Sections()
+    deck, parts, sections, offsets = Deck(path), {}, Sections(), Offsets()
     for block in blocks_of(path, 0, path.parent):
         refuse(block, parts)
         if block.keyword == "NODE":
@@ -49,8 +50,11 @@ def read_inp(path: Path) -> ShellMesh:
             add_elements(deck, block, sections)
         else:
             sections.note(block)
+            if block.keyword in SECTIONS:
+                offsets.note(f"OFFSET of *{block.keyword}", block.options.get("OFFSET", ""))
     mesh = deck.mesh()
     sections.give_axes(mesh)
+    offsets.tell(mesh)
     return mesh
 
 

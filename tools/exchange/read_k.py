@@ -14,6 +14,7 @@ from exchange.deck_lines import Fields, Line, are_whole, number, numbers_of, who
 from exchange.deck_mesh import Deck
 from exchange.k_axes import Axes
 from exchange.keyword_file import Cards, blocks_of
+from exchange.part_offsets import Offsets
 from exchange.shell_mesh import ShellMesh
 
 OTHERS = ("SOLID", "BEAM", "TSHELL", "DISCRETE", "MASS", "INERTIA", "SEATBELT", "SPH", "PLOTEL",
@@ -26,17 +27,27 @@ CORNERS = 6  # fields of an element's first card: number, part, four corners
 
 
 def read_k(path: Path) -> ShellMesh:
-    deck, axes = Deck(path), Axes()
+    deck, axes, offsets = Deck(path), Axes(), Offsets()
     for block in blocks_of(path):
         if block.keyword == "NODE":
             add_nodes(deck, block)
         elif block.keyword.startswith("ELEMENT_"):
-            add_elements(deck, block, axes)
+            add_elements(deck, block, axes, offsets)
+        elif block.keyword.startswith("SECTION_SHELL"):
+            note_faces(block, offsets)
         else:
             axes.note(block)
     mesh = deck.mesh()
     axes.give(mesh)
+    offsets.tell(mesh)
     return mesh
+
+
+def note_faces(block: Cards, offsets: Offsets) -> None:
+    """NLOC, the fifth field of a section's second card: the face that the nodes are on."""
+    first = 1 if block.keyword.endswith("_TITLE") else 0
+    if first + 1 < len(block.texts):
+        offsets.note("NLOC of *SECTION_SHELL", block.words(first + 1, block.widths(ELEMENT))[4])
 
 
 def add_nodes(deck: Deck, block: Cards) -> None:
@@ -73,7 +84,7 @@ def add_by_commas(deck: Deck, block: Cards) -> bool:
     return True
 
 
-def add_elements(deck: Deck, block: Cards, axes: Axes) -> None:
+def add_elements(deck: Deck, block: Cards, axes: Axes, offsets: Offsets) -> None:
     options = options_of(block.head, block.keyword)
     if options is None:
         deck.left_out[block.keyword] += len(block.texts)
@@ -100,6 +111,8 @@ def add_elements(deck: Deck, block: Cards, axes: Axes) -> None:
         if options & THICK:
             axes.of_card(block, row, label, options)
             row += 2 if any(ends[4:]) else 1
+        if "OFFSET" in options and row < len(block.texts):
+            offsets.note("OFFSET of *ELEMENT_SHELL", block.words(row, [16])[0])
         row += ("OFFSET" in options) + ("DOF" in options)
     if row > len(block.texts):
         raise block.line(len(block.texts) - 1).wrong(
