@@ -1,16 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing, configures build/PRESET if that has not been done, and builds:
-#   tools/build.sh PRESET           all, with the tests
-#   tools/build.sh PRESET TARGET    one target: plyform, the program, needs the packages of the tests
-#                                   only if the folder is set up for them; _plyform, the Python
-#                                   module, does
+#   tools/build.sh PRESET              all, with the tests
+#   tools/build.sh PRESET TARGET...    some: plyform, the program, and _plyform, the Python module, need
+#                                      the packages of the tests only if the folder is set up for them
 # Done again, it does nothing that is not needed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 root=$(pwd -P)
 cd "$root"
-preset=$1 target=${2:-all}
+preset=$1
+targets=("${@:2}")
+[ ${#targets[@]} -gt 0 ] || targets=(all)
+for_users=yes # nothing but what users run
+for target in "${targets[@]}"; do
+  [[ $target =~ ^_?plyform$ ]] || for_users=no
+done
 cache=build/$preset/CMakeCache.txt
 
 step() { printf '== %s\n' "$*"; }
@@ -23,9 +28,9 @@ if grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" &&
 fi
 # A folder set up for the program alone gets its tests when they are asked for first.
 tests=yes options=()
-if [ "$target" = plyform ] && { [ $fresh = yes ] || grep -qsxF PLYFORM_TESTS:BOOL=OFF "$cache"; }; then
+if [ $for_users = yes ] && { [ $fresh = yes ] || grep -qsxF PLYFORM_TESTS:BOOL=OFF "$cache"; }; then
   tests=no options=(-D PLYFORM_TESTS=OFF)
-elif [ "$target" != plyform ] && [ "$preset" != bench ] && grep -qsxF PLYFORM_TESTS:BOOL=OFF "$cache"; then
+elif [ $for_users = no ] && [ "$preset" != bench ] && grep -qsxF PLYFORM_TESTS:BOOL=OFF "$cache"; then
   fresh=add options=(-D PLYFORM_TESTS=ON)
 fi
 
@@ -35,9 +40,9 @@ groups=(build)
 [ "$preset" != asan ] || groups+=(clang-14 libclang-rt-14-dev)
 tools/install_packages.sh "${groups[@]}"
 
-step "Build in build/$preset (two cores: plyform three minutes, with the tests eight)"
+step "Build in build/$preset (two cores: program and module three minutes, with the tests eight)"
 case $fresh in
   yes) cmake --fresh --preset "$preset" "${options[@]}" ;;
   add) cmake --preset "$preset" "${options[@]}" ;;
 esac
-cmake --build "build/$preset" --target "$target"
+cmake --build "build/$preset" --target "${targets[@]}"

@@ -5,9 +5,7 @@
 #   tools/package.sh      then, on any Debian 12: apt install ./plyform_*.deb
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-tools/install_packages.sh build test dpkg-dev file
-tools/build.sh release plyform
-cmake -D PLYFORM_PYTHON=ON build/release >/dev/null
-cmake --build build/release --target plyform _plyform
+tools/install_packages.sh dpkg-dev file
+tools/build.sh release plyform _plyform
 (cd build/release && cpack)
 ls "$PWD"/build/release/plyform_*.deb

@@ -5,9 +5,12 @@ checked, drawn; a process that dies or hangs in between."""
 import asyncio
 import json
 import os
+import shutil
 import signal
 import struct
+import subprocess
 import sys
+import tempfile
 import threading
 import time
 from pathlib import Path
@@ -327,8 +330,27 @@ def drawn_at_once(server):
     assert seen[1][:2] == (False, True) and seen[2] == seen[1], seen
 
 
+def module_comes_later():
+    """A build whose Python module is not there, not whole, and then is: forms are never empty."""
+    with tempfile.TemporaryDirectory() as build:
+        program, package = Path(build) / "tools/plyform", Path(build) / "python/plyform"
+        program.parent.mkdir()
+        shutil.copy2(PROGRAM, program)
+        command = [TOOLS / "studio", "--no-browser", "--program", program, Path(build) / "folder"]
+        said = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        assert said.returncode == 1 and "there is no Python module beside" in said.stderr, said
+        shutil.copytree(module_of(PROGRAM) / "plyform", package, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+        compiled, = (module_of(PROGRAM) / "plyform").glob("_plyform*.so")
+        with Server(TOOLS, program) as server:
+            status, said = server.call("GET", "api/keys")
+            assert status == 500 and "cannot be loaded" in said["error"], (status, said)
+            shutil.copy2(compiled, package / compiled.name)
+            assert "tool[].radius" in {row["key"] for row in server.get("api/keys")}
+
+
 def main():
     fewer_facets()
+    module_comes_later()
     with Server(TOOLS, PROGRAM) as server:
         for part in (made_and_listed, changed_and_taken_back, two_pages, taken_in, told_by_the_program, drawn, drawn_at_once,
                      process_dies):

@@ -28,12 +28,18 @@ class Gone(Exception):
     """The process has ended before it answered."""
 
 
+def stamps_of(module: Path) -> list:
+    return sorted((file.name, file.stat().st_mtime_ns, file.stat().st_ino)
+                  for file in module.glob("plyform/_plyform*.so"))
+
+
 class Worker:
     """Answers one request after the other. A newer request of the same file ends an older one."""
 
     def __init__(self, module: Path, limit: float = LIMIT, nice: int = 0):
         self.command = [sys.executable, "-sP", str(WORKER), str(TOOLS), str(module), f"{limit + LATER:g}"]
-        self.limit, self.nice = limit, nice
+        self.limit, self.nice, self.module = limit, nice, module
+        self.loaded: list = []  # stamps of the module's files, as the process began
         self.turn = threading.Lock()
         self.state = threading.Lock()
         self.process: subprocess.Popen | None = None
@@ -42,11 +48,14 @@ class Worker:
         self.newest: dict[tuple, dict] = {}
 
     def start(self) -> None:
+        """Anew if it has ended, or if the module has been built again."""
+        found = stamps_of(self.module)
         with self.state:
-            if self.process and self.process.poll() is None:
+            if self.process and self.process.poll() is None and found == self.loaded:
                 return
             if self.process:
                 self.close()
+            self.loaded = found
             self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                             stderr=subprocess.DEVNULL,  # Ctrl-C ends it too
                                             env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})

@@ -27,30 +27,18 @@ class CaseReading:
         self.files = files
         self.project = files.project
         self.program = program
-        self.started: Workers | None = None
+        self.workers = Workers(module_of(program))
         self.kept: dict[tuple, object] = {}
         self.lock = threading.Lock()
         self.followed: dict[str, tuple] = {}  # stamps by name
-        self.key_rows: list | None = None
         shutil.rmtree(self.project.own / DRAFTS, ignore_errors=True)
-
-    @property
-    def workers(self) -> Workers:
-        """Started when first asked for. Raises Trouble without the module."""
-        with self.lock:
-            self.started = self.started or Workers(module_of(self.program))
-            return self.started
 
     def warm(self) -> None:
         """The first picture comes at once."""
-        try:
-            self.workers.warm()
-        except Trouble:
-            pass  # told when a case is asked for
+        self.workers.warm()
 
     def stop(self) -> None:
-        if self.started:
-            self.started.stop()
+        self.workers.stop()
 
     def asked(self, name: str, version: str) -> tuple[str, tuple, Path]:
         """Name, stamp of all its files and path of a case. Raises Refused, also if it names files outside."""
@@ -112,10 +100,9 @@ class CaseReading:
                 self.files.events.send("outlook", path=name, version=version, outlook=None, why=str(problem))
 
     def keys(self) -> list[dict]:
-        if self.key_rows is None:
-            said, _ = self.workers.scene.ask("keys")
-            self.key_rows = said.get("keys", [])
-        return self.key_rows
+        said, _ = self.workers.scene.ask("keys")
+        self.without_fault(said)
+        return said["keys"]
 
     def bytes_of(self, worker: Worker, act: str, path: Path, stamp: tuple, **more) -> bytes:
         said, content = worker.ask(act, file=str(path), stamp=stamp, **more)
@@ -131,10 +118,14 @@ class CaseReading:
         return said
 
     def sound(self, said: dict, path: Path, stamp: tuple) -> None:
-        if "error" in said:
-            raise Refused(f"this is a fault of plyform, not of your files: {said['error']}; please report it", 500)
+        self.without_fault(said)
         if self.stamp(path) != stamp:
             raise Refused("a file of the case has changed meanwhile", 409)
+
+    @staticmethod
+    def without_fault(said: dict) -> None:
+        if "error" in said:
+            raise Refused(f"this is a fault of plyform, not of your files: {said['error']}; please report it", 500)
 
     def shown(self, file: str) -> str:
         path = Path(os.path.realpath(file))
@@ -219,5 +210,5 @@ def module_of(program: Path) -> Path:
     for place in (program.parents[1] / "python", program.parents[1] / "lib/python3/dist-packages"):
         if (place / "plyform/__init__.py").is_file():
             return place
-    raise Trouble(f"there is no Python module beside {program}: install python3-dev and pybind11-dev and build "
-                  "plyform again")
+    raise Trouble(f"there is no Python module beside {program}, which the workbench stands on: build it, as "
+                  "tools/form.sh does")
