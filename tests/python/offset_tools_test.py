@@ -8,6 +8,7 @@ The parts are made by gmsh's Open CASCADE. Leaves with 77 when gmsh, numpy or sc
 """
 
 import math
+import re
 import subprocess
 import sys
 import tempfile
@@ -176,6 +177,38 @@ def check_domes(folder):
             assert away <= 0.1
 
 
+HALF_AXES = np.array([60.0, 40.0, 25.0])  # mm: of the half ellipsoid
+
+
+def half_ellipsoid(occ):
+    """A solid, flat below: a sphere that is scaled has poles where lines of its parameters end."""
+    ball = occ.addSphere(0, 0, 0, 50)
+    occ.dilate([(3, ball)], 0, 0, 0, *HALF_AXES / 50)
+    occ.cut([(3, ball)], [(3, occ.addBox(-100, -100, -100, 200, 200, 100))])
+
+
+def check_pole_and_base(folder):
+    """The default of a page, a part on the die, has its flat base towards the die: its dome is taken. Curvature at
+    the pole, on either side of the room, is that of an ellipsoid, c / a^2 and c / b^2."""
+    part = folder / "half.step"
+    write_step(part, half_ellipsoid)
+    for on, solid, said in (("die", "part", "taken for the body of the die, as its skin on the other side is flat"),
+                            ("punch", "part", "are taken, the skin towards the punch")):
+        die, punch, told = pair(part, "--offset", 1.5, "--on", on, "--solid", solid, "--deflection", 0.2)
+        assert said in told, told
+        level = np.linalg.norm((die if on == "die" else punch).reshape(-1, 3) / HALF_AXES, axis=1)
+        on_it = np.abs(level - 1) < 0.01
+        assert on_it.sum() > 1000, on_it.sum()
+        height = [tool.reshape(-1, 3)[:, 2] for tool in (die, punch)]
+        top = HALF_AXES[2], HALF_AXES[2] + 1.5 * (1 if on == "die" else -1)
+        assert abs(height[0].max() - top[on == "punch"]) < 0.1, (on, height[0].max())
+    done = call(mesh_tool, part, "-o", folder / "never.stl", "--deflection", 0.2, "--offset", 11.0, "--on", "punch",
+                "--solid", "part")
+    radius = HALF_AXES[2] ** 2 / HALF_AXES[0]  # the least there is, at the end of the longest axis
+    found = re.search(r"the radius of ([0-9.e+-]+) mm", done.err)
+    assert done.code == 2 and found and abs(float(found[1]) / radius - 1) < 0.1, (radius, done.err)
+
+
 def check_closed(corners):
     sides = {}
     for triangle in corners.round(5).tolist():
@@ -275,6 +308,7 @@ def main():
         check_rooms(folder)
         check_refused(folder)
         check_domes(folder)
+        check_pole_and_base(folder)
         check_bodies(folder)
         check_run(folder)
 

@@ -5,7 +5,7 @@ the exact normals of its faces. Lengths in mm.
 gmsh keeps one model for all of a process: call read_sheet in a process of its own (mesh_tool.py)."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import gmsh
@@ -25,6 +25,7 @@ from exchange.shell_mesh import triangle_normals
 from plotting.reading import Trouble
 
 SIDEWAYS = 0.01     # of the cosine to the direction of pressing: walls along it
+FLAT = 1e-6         # of the cosine between normals: a plane
 FLAT_SHARE = 0.02   # of the area that has to face the direction, to know which side is which
 
 
@@ -158,7 +159,7 @@ def sheet_of(asked: Asked, source: Source, x: np.ndarray, triangles: np.ndarray,
     sheet = Sheet(x, triangles, normals, face, curvature)
     facing, area = triangle_normals(x, triangles)
     if source.solid:
-        sheet, words, turned = skin_of(asked, source, sheet)
+        sheet, words, turned = shaped_skin(asked, source, sheet)
     else:
         turned = shell_turned(asked, source.path, facing, area)
         words = f"{'faces sewn to an' if source.sewn else 'an'} open shell of {len(source.faces)} " \
@@ -178,6 +179,26 @@ def shell_turned(asked: Asked, path: Path, facing: np.ndarray, area: np.ndarray)
         raise Trouble(f"{path}: as much of the surface faces the punch as the die, with the direction "
                       f"of pressing {asked.direction.round(3).tolist()}: give another --direction")
     return (towards > 0) == (asked.on == "die")
+
+
+def shaped_skin(asked: Asked, source: Source, sheet: Sheet) -> tuple[Sheet, str, bool]:
+    """As skin_of. A skin that is one plane forms nothing: then the solid is not what it is said to be, but the
+    body of a tool, or the part, with its shape on the other side. Raises Trouble if that is a plane too."""
+    skin, words, inside = skin_of(asked, source, sheet)
+    if not is_plane(skin):
+        return skin, words, inside
+    otherwise = replace(asked, solid="tool" if asked.solid == "part" else "part")
+    skin, other, inside = skin_of(otherwise, source, sheet)
+    if is_plane(skin):
+        raise Trouble(f"{source.path}: both sides of the solid are flat, seen along the direction of pressing "
+                      f"{asked.direction.round(3).tolist()}: nothing would be formed; give another --direction")
+    what = f"the body of the {asked.on}" if asked.solid == "part" else "the formed part"
+    return skin, f"{other}; it is taken for {what}, as its skin on the other side is flat", inside
+
+
+def is_plane(skin: Sheet) -> bool:
+    normals = skin.normals.reshape(-1, 3)
+    return bool((normals @ normals[0]).min() > 1 - FLAT)
 
 
 def skin_of(asked: Asked, source: Source, sheet: Sheet) -> tuple[Sheet, str, bool]:

@@ -12,6 +12,8 @@ APART = 1e-4  # of the parameters, for differences
 ON_IT = 1e-6  # mm, of a point from the place of its parameters
 NEWTON = 8    # steps
 THIN = 1e-6   # sine of the angle between differences along the parameters: less is a pole
+POLE = 1e-3   # of the longest difference along a parameter: shorter ones are of noise, as lines of it end in a pole
+BESIDE = 0.02  # of the parameters, off a pole, where its curvature is taken
 
 
 def at_corners(x: np.ndarray, triangles: np.ndarray,
@@ -90,8 +92,18 @@ def exact_normals(face: int, parameters: np.ndarray, about: np.ndarray) -> tuple
 
 
 def curvatures(face: int, parameters: np.ndarray) -> np.ndarray:
-    """k x 2, 1/mm: least and largest principal curvature, above 0 where gmsh's normals spread, by
-    differences along both parameters; 0 at poles. gmsh's own have no sign to rely on."""
+    """k x 2, 1/mm: least and largest principal curvature, above 0 where gmsh's normals spread; at poles that
+    beside them. gmsh's own have no sign to rely on."""
+    found, length = by_differences(face, parameters)
+    pole = (length < POLE * length.max(axis=0)).any(axis=1)
+    if pole.any():
+        found[pole] = by_differences(face, (parameters + BESIDE * inwards(face, parameters))[pole])[0]
+    return found
+
+
+def by_differences(face: int, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """k x 2 curvatures, 0 where the face has no tangent plane; and how far the points lie apart, mm, by which
+    they are taken along both parameters."""
     step = APART * inwards(face, parameters)
     here, normal = points_at(face, parameters), normals_at(face, parameters)
     along, turn = [], []
@@ -112,4 +124,4 @@ def curvatures(face: int, parameters: np.ndarray) -> np.ndarray:
     found = np.zeros((len(parameters), 2))
     shape = turns[known] @ np.linalg.inv(sides[known])
     found[known] = np.linalg.eigvalsh((shape + shape.transpose(0, 2, 1)) / 2)
-    return found
+    return found, np.stack([np.linalg.norm(one, axis=1) for one in along], axis=1)
