@@ -149,7 +149,7 @@ def made_after_the_look(server, outside, mine):
     shutil.copy(mine / "case.toml", outside / "case.toml")
     (server.folder / "moved").symlink_to(outside)
     attempt("a folder that has become a link, changed", server.call(
-        "POST", "api/case/undo", {}, query={"path": "moved/case.toml"}), 403)
+        "POST", "api/case/undo", {"version": seen["version"]}, query={"path": "moved/case.toml"}), 403)
     (server.folder / "moved").unlink()
     (outside / "case.toml").unlink()
     swapped_all_the_time(server, outside, mine)
@@ -350,6 +350,21 @@ def page_of_another_site(server):
     attempt("a page of another site: what its POSTs have made", 0 if sorted(server.folder.iterdir()) == before else 1, 0)
 
 
+WITH_BODY = [("POST", path) for path in (
+    "identify", "cases", "studies", "study/start", "study/picture_now",
+    "import", "results/differences", "results/report", "results/export", "runs")] + [
+    ("PUT", f"case?path={CASE}"), ("PATCH", f"case?path={CASE}"), ("PUT", "study"), ("PUT", "study/text")]
+
+
+def bodies_that_are_no_text(server):
+    text = '{"name": "x", "text": "a = 1", "version": "", "edits": [], "path": "", "case": ""}'
+    tries = {"bytes": b"\xff\xfe" + bytes(range(256)), "UTF-16": text.encode("utf-16"), "UTF-16 without a mark":
+             text.encode("utf-16-le"), "half a character": text.replace('"x"', '"\\udc80"').encode()}
+    for words, body in tries.items():
+        for method, path in WITH_BODY:
+            attempt(f"{method} {path.partition('?')[0]} with {words}", server.call(method, f"api/{path}", body), 400)
+
+
 def table():
     wide = max(len(words) for words, _, _ in ROWS)
     for words, status, said in ROWS:
@@ -373,6 +388,7 @@ def main():
             sizes(server)
             names(server)
             cases_that_name_files(server, outside)
+            bodies_that_are_no_text(server)
             page_of_another_site(server)
             assert server.call("GET", "api/folder")[0] == 200  # it goes on
         assert sorted(os.walk(outside)) == begin and SECRET in (outside / "secret.toml").read_text()

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
 from fastapi.responses import FileResponse, HTMLResponse, JSONResponse
+from starlette.exceptions import HTTPException
 
 from base.ending import Mistake, Trouble, one_line, place_of, words_of
 from base.files import is_file
@@ -50,6 +51,7 @@ def application(studio: Studio, routers: list) -> FastAPI:
 
     for kind in (Trouble, Refusal, OSError, MemoryError, Exception):
         app.add_exception_handler(kind, wrong)
+    app.add_exception_handler(HTTPException, not_taken)
     return app
 
 
@@ -91,6 +93,13 @@ async def tell_events(studio: Studio, socket: WebSocket) -> None:
         pass
     finally:
         task.cancel()
+
+
+async def not_taken(request: Request, problem: HTTPException) -> JSONResponse:
+    """What the guard has refused while a body was read, or what there is no route of."""
+    if isinstance(problem.__cause__, Refusal):
+        return await wrong(request, problem.__cause__)
+    return JSONResponse({"error": one_line(problem.detail)}, problem.status_code, headers=problem.headers)
 
 
 async def wrong(request: Request, problem: Exception) -> JSONResponse:

@@ -5,12 +5,15 @@ and names that are made to point here (DNS rebinding) another Host."""
 
 import hmac
 import json
+import re
 from urllib.parse import urlsplit
 
 from .peer import may_ask
 
 MOST_BODY = 4 << 20  # bytes; of uploads, which are written as they come, see uploads
 MOST_UPLOAD = 512 << 20
+ESCAPED = re.compile(r"\\\\|\\u[dD][89abAB]..\\u[dD][c-fC-F]..")  # a backslash, or both halves of a character
+HALF = re.compile(r"\\u[dD][89a-fA-F]")
 HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
@@ -105,7 +108,7 @@ class Guard:
         words = f"more than the {most >> 20} MiB that can be sent at once"
         if int(told) > most:
             raise Refusal(413, f"{int(told) / (1 << 20):.0f} MiB are {words}")
-        got = 0
+        got, pieces = 0, []
 
         async def counted():
             nonlocal got
@@ -114,8 +117,23 @@ class Guard:
             if got > most:
                 too_long.append(Refusal(413, words))
                 raise too_long[0]
+            if scope["path"] != "/api/upload":
+                pieces.append(message.get("body", b""))
+                if not message.get("more_body"):
+                    check_text(b"".join(pieces))
             return message
         return counted
+
+
+def check_text(body: bytes) -> None:
+    """JSON is UTF-8: what reads it takes UTF-16 as well, and halves of characters, of which no file can be
+    written. Raises Refusal."""
+    try:
+        text = body.decode("utf-8")
+    except UnicodeDecodeError as problem:
+        raise Refusal(400, f"the request is no text in UTF-8: byte {problem.start + 1}") from problem
+    if "\0" in text or HALF.search(ESCAPED.sub("", text)):
+        raise Refusal(400, "the request has a character that no text has: half of one, or NUL")
 
 
 async def refuse(scope, receive, send, refusal: Refusal) -> None:
