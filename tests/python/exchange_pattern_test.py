@@ -66,6 +66,18 @@ def check_dome():
         assert abs(pattern.strip_area / (2 * RADIUS * angle) ** 2 - 1) < 0.002
 
 
+def plain_polyline(folder):
+    """Without the names of its parts, as blanks take it, in inches."""
+    corners = ((0, 0), (4, 0), (4, 3), (0, 3))
+    rows = "".join(f"10\n{x}\n20\n{y}\n" for x, y in corners)
+    head = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n1\n{}0\nENDSEC\n"
+    for unit, part in ((25.4, head.format("")), (25.4, head.format("9\n$ACADVER\n1\nAC1009\n")), (1.0, "")):
+        (folder / "plain.dxf").write_text(f"{part}0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n4\n70\n1\n{rows}"
+                                          "0\nENDSEC\n0\nEOF\n")
+        line = read_outline(folder / "plain.dxf", False)
+        assert abs(area_of(line.points) - 12 * unit ** 2) < 1e-6, (part, line.points)
+
+
 def check_curves(folder):
     square = np.array([(0, 0), (10, 0), (10, 10), (0, 10)], float)
     points = divided(square, 3.0)
@@ -74,6 +86,7 @@ def check_curves(folder):
     assert np.allclose(distance_to(far, square), [5.0, 2.0, 5.0, 0.0])
     assert np.allclose(distance_to(far, circle(3.0)), np.linalg.norm(far, axis=1) - 3.0, atol=1e-3)
     drawing = ezdxf.new("R2010")
+    drawing.units = ezdxf.units.MM
     space = drawing.modelspace()
     space.add_line((-20, -10), (20, -10))
     space.add_arc((20, 0), 10, -90, 90)
@@ -83,6 +96,7 @@ def check_curves(folder):
     slot = read_outline(folder / "slot.dxf", False)
     assert abs(abs(area_of(slot.points[:, :2])) - (800 + 100 * np.pi)) < 1.0 and slot.above
     (folder / "space.csv").write_text("x,y,z\n0,0,1\n1,0,2\n0,1,3\n", encoding="utf-8")
+    plain_polyline(folder)
     assert np.allclose(read_outline(folder / "space.csv", True).points[:, 2], [1, 2, 3])
     assert (read_outline(folder / "space.csv", False).points[:, 2] == 0).all()
 

@@ -2,6 +2,7 @@
 """Closed curves: trim lines read from CSV and DXF, and what can be measured of them. Lengths in mm."""
 
 import csv
+import io
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from base.files import TABLE, check_file, read_bytes
+from base.files import TABLE, check_file, read_bytes, read_text
 from plotting.reading import Trouble
 
 CHORD = 0.05        # mm: curves of DXF files are followed to within
@@ -79,24 +80,56 @@ def rows_of(path: Path, lines: list[str]) -> Iterator[tuple[int, list[str]]]:
         raise Trouble(f"{path}:{reader.line_num}: {problem}") from problem
 
 
+MM = {0: 1.0, 1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 14: 100.0}  # of $INSUNITS, as blanks are read
+PARTS = {"LWPOLYLINE": "AcDbPolyline", "SPLINE": "AcDbSpline", "ELLIPSE": "AcDbEllipse"}  # newer than R12
+OF_ANY = ("5", "330", "8", "6", "62", "370", "48", "60", "67", "410", "420")  # codes of every entity
+
+
+def completed(text: str) -> str:
+    """A drawing whose entities do not say of which part their groups are, which blanks need not, with it said."""
+    lines = text.splitlines()
+    groups = [(code.strip(), value) for code, value in zip(lines[::2], lines[1::2])]
+    made, k = [], 0
+    while k < len(groups):
+        end = next((i for i in range(k + 1, len(groups)) if groups[i][0] == "0"), len(groups))
+        entity, part = groups[k:end], PARTS.get(groups[k][1].strip())
+        if part and all(code != "100" for code, _ in entity):
+            own = [one for one in entity[1:] if one[0] in OF_ANY]
+            entity = [entity[0], *(one for one in own if one[0] in OF_ANY[:2]), ("100", "AcDbEntity"),
+                      *(one for one in own if one[0] not in OF_ANY[:2]), ("100", part),
+                      *(one for one in entity[1:] if one[0] not in OF_ANY)]
+        made += entity
+        k = end
+    if ("9", "$ACADVER") not in made:
+        at = next((i + 1 for i, one in enumerate(made) if one == ("2", "HEADER")), 0)
+        version = [("9", "$ACADVER"), ("1", "AC1015")]  # R2000, the first that has such entities
+        made[at:at] = version if at else [("0", "SECTION"), ("2", "HEADER"), *version, ("0", "ENDSEC")]
+    return "".join(f"{code}\n{value}\n" for code, value in made).replace("\nAC1009\n", "\nAC1015\n")
+
+
 def read_dxf(path: Path) -> np.ndarray:
-    """Lines and arcs that join end to end are one curve."""
+    """mm. Lines and arcs that join end to end are one curve."""
     try:
         import ezdxf
         from ezdxf import path as curves
     except ImportError as problem:
         raise Trouble(f"{path} is read by ezdxf: install python3-ezdxf") from problem
     try:
-        drawing = ezdxf.readfile(path)
+        try:
+            drawing = ezdxf.readfile(path)
+        except ezdxf.DXFStructureError:
+            drawing = ezdxf.read(io.StringIO(completed(read_text(path))))
     except (OSError, ezdxf.DXFError, ValueError) as problem:
         raise Trouble(f"{path} cannot be read as DXF: {problem}") from problem
+    if drawing.units not in MM:
+        raise Trouble(f"{path}: its unit ($INSUNITS = {drawing.units}) is not known: draw it in mm, cm, m, inches or feet")
     pieces = []
     for entity in drawing.modelspace():
         try:
             curve = curves.make_path(entity)
         except TypeError:
             continue  # texts, points, dimensions
-        pieces.append(np.array([tuple(p) for p in curve.flattening(CHORD)]))
+        pieces.append(MM[drawing.units] * np.array([tuple(p) for p in curve.flattening(CHORD / MM[drawing.units])]))
     loops = join(pieces)
     closed = [loop for loop in loops if np.linalg.norm(loop[0] - loop[-1]) < JOINED]
     if len(closed) != 1 or len(loops) != 1:
