@@ -104,7 +104,12 @@ void bind_keys(py::module_& m) {
       .def_property_readonly("implied_by", of_form(&KeyForm::implied_by),
                              "Keys of the same table beside one of which `implied` is the default.")
       .def_property_readonly("implied", of_form(&KeyForm::implied), "TOML, or empty.")
-      .def_property_readonly("choices", of_form(&KeyForm::choices), "Words of a choice.")
+      .def_property_readonly("choices", of_form(&KeyForm::choices),
+                             "Words of a choice; beside `refers` words that stand for several "
+                             "items.")
+      .def_property_readonly("refers", of_form(&KeyForm::refers),
+                             "Tables or lists of whose items it is a name: blanks, ply, "
+                             "fabrics.NAME.family.")
       .def_property_readonly("columns", of_form(&KeyForm::columns),
                              "KeyColumn of each column of numbers; the last one is that of all "
                              "further ones. Empty for what has no numbers.")

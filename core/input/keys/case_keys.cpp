@@ -59,7 +59,7 @@ std::string fallback_text(const KeyRow& row) {
 }
 
 std::string range_text(const KeyRow& row) {
-  if (!row.choices.empty()) return "one of " + joined(row.choices);
+  if (row.kind == KeyKind::choice) return "one of " + joined(row.choices);
   std::vector<std::string> parts;
   for (const Range& range : row.ranges)
     parts.push_back(range.text().empty() ? "any" : range.text());
@@ -137,9 +137,9 @@ std::vector<KeyColumn> columns_of(const KeyRow& row) {
 }
 
 KeyForm form_of(const KeyRow& row) {
-  return {kind_word(row.kind), row.required(), row.fallback,    row.otherwise, row.implied_by,
-          row.implied,         row.choices,    columns_of(row), row.count,     row.least_items,
-          row.most_items,      row.instead,    row.of,          row.with};
+  return {kind_word(row.kind), row.required(), row.fallback, row.otherwise,   row.implied_by,
+          row.implied,         row.choices,    row.refers,   columns_of(row), row.count,
+          row.least_items,     row.most_items, row.instead,  row.of,          row.with};
 }
 
 using Json = nlohmann::ordered_json;
@@ -176,6 +176,7 @@ Json json_of(const KeyInfo& k) {
           {"implied_by", f.implied_by},
           {"implied", f.implied},
           {"choices", f.choices},
+          {"refers", f.refers},
           {"columns", columns},
           {"count", f.count},
           {"least_items", f.least_items},

@@ -31,7 +31,8 @@ struct KeyForm {
   std::string otherwise;               ///< the same in words, if it is no value
   std::vector<std::string> implied_by; ///< keys of the same table beside which `implied` is taken
   std::string implied;                 ///< TOML
-  std::vector<std::string> choices;    ///< of a choice
+  std::vector<std::string> choices;    ///< of a choice; beside `refers`: words for several items
+  std::vector<std::string> refers;     ///< patterns of the tables of whose items it is a name
   std::vector<KeyColumn> columns;      ///< of numbers; the last one is that of all further ones
   std::size_t count = 0;               ///< of numbers and names; 0: any number
   std::size_t least_items = 0, most_items = 0; ///< of a list; 0: no bound

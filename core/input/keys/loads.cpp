@@ -137,6 +137,7 @@ Rows load_rows() {
           {.key = "load[].ply",
            .kind = K::text,
            .instead = {"between"},
+           .refers = {"ply"},
            .meaning = "name of the ply that it acts on"},
           {.key = "load[].side",
            .kind = K::choice,
@@ -147,6 +148,7 @@ Rows load_rows() {
           {.key = "load[].between",
            .kind = K::names,
            .instead = {"ply", "side"},
+           .refers = {"ply"},
            .count = 2,
            .meaning =
                "names of the lowest and the highest ply of an enclosed stack: it acts on the "

@@ -70,14 +70,18 @@ struct KeyRow {
   std::vector<std::string> instead{};
   std::vector<Range> ranges{}; ///< per column; the last one applies to all further columns
   std::vector<Range> usual{};  ///< the same of numbers as they are used; others get a warning
-  std::vector<std::string> choices{}; ///< for KeyKind::choice
-  std::size_t count = 0;              ///< number of items of numbers and names; 0 = any
-  std::size_t least_items = 0;        ///< smallest number of items of lists of any length
-  std::size_t most_items = 0;         ///< largest number of them; 0: as many as usual for its kind
-  std::string of{};                   ///< choice key of the same table that this key depends on
-  std::vector<std::string> with{};    ///< values of that choice key for which this key is allowed
-  std::string meaning{};              ///< noun phrase, completes "give the ..."
-  std::vector<KeyMember> members{};   ///< members that it fills, of different structs
+  /// For KeyKind::choice; beside `refers`: words that stand for several of the items.
+  std::vector<std::string> choices{};
+  /// Patterns of the tables or lists of whose items the value (or each of `names`) is a name:
+  /// "blanks", "ply", "fabrics.NAME.family".
+  std::vector<std::string> refers{};
+  std::size_t count = 0;            ///< number of items of numbers and names; 0 = any
+  std::size_t least_items = 0;      ///< smallest number of items of lists of any length
+  std::size_t most_items = 0;       ///< largest number of them; 0: as many as usual for its kind
+  std::string of{};                 ///< choice key of the same table that this key depends on
+  std::vector<std::string> with{};  ///< values of that choice key for which this key is allowed
+  std::string meaning{};            ///< noun phrase, completes "give the ..."
+  std::vector<KeyMember> members{}; ///< members that it fills, of different structs
 
   bool required() const { return fallback.empty() && otherwise.empty() && instead.empty(); }
   const Range& range_of(std::size_t column) const;

@@ -68,6 +68,7 @@ Rows attachment_rows() {
           {.key = "boundary[].carried_by",
            .kind = K::text,
            .otherwise = "the anchor stays",
+           .refers = {"tool"},
            .of = "kind",
            .with = spring,
            .meaning = "name of the driven tool with which the anchor moves"},

@@ -104,6 +104,7 @@ Rows zone_rows() {
                      .meaning = "corners [x, y] of a zone, in order"}),
           zone_kind({.key = "tool",
                      .kind = K::name,
+                     .refers = {"tool"},
                      .meaning = "name of a tool, along whose tight radii the zone lies, seen from "
                                 "above, with all where it is at the start"}),
           {.key = "blanks.NAME.zone[].below_radius",

@@ -47,6 +47,7 @@ Rows boundary_rows() {
       {.key = "boundary[].ply",
        .kind = K::text,
        .otherwise = "all plies",
+       .refers = {"ply"},
        .meaning = "name of the one ply that is held"},
       points("box", placed, 2,
              "two corners [x, y] of a rectangle; it holds all nodes of the unformed ply "

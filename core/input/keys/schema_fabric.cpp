@@ -137,6 +137,7 @@ Rows family_rows() {
                  .meaning = "two families that resist shear, one [[crossing]] each"},
                 {.key = "fabrics.NAME.crossing[].families",
                  .kind = K::names,
+                 .refers = {"fabrics.NAME.family"},
                  .count = 2,
                  .meaning = "names of the two families"}});
   append(rows, shear_rows("fabrics.NAME.crossing[]"));

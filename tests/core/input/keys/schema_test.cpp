@@ -107,5 +107,56 @@ TEST(KeyTable, BoundsEveryNumberOnBothSides) {
   }
 }
 
+/// Keys of files that name another part, and where each stands in a good file.
+struct Naming {
+  std::string pattern, file, key;
+};
+
+const std::vector<Naming> namings{
+    {"fabrics.NAME.crossing[].families", "families", "fabrics.triaxial.crossing.0.families.1"},
+    {"blanks.NAME.zone[].tool", "zones", "blanks.square.zone.2.tool"},
+    {"ply[].fabric", "friction", "ply.0.fabric"},
+    {"ply[].blank", "friction", "ply.0.blank"},
+    {"boundary[].ply", "springs", "boundary.2.ply"},
+    {"boundary[].carried_by", "springs", "boundary.0.carried_by"},
+    {"contact.friction_law", "friction", "contact.friction_law"},
+    {"contact.pair[].between", "friction", "contact.pair.0.between.1"},
+    {"contact.pair[].friction_law", "friction", "contact.pair.0.friction_law"},
+    {"load[].ply", "loads", "load.0.ply"},
+    {"load[].between", "enclosure", "load.0.between.0"}};
+
+TEST(CaseKeys, SayOfWhichPartsTheyAreNames) {
+  const std::set<std::string> free{"title", "fabrics.NAME.name", "blanks.NAME.layer",
+                                   "blanks.NAME.mesh_from"};
+  std::set<std::string> referring, tried;
+  for (const KeyRow& row : key_table()) {
+    const bool text = row.kind == KeyKind::text || row.kind == KeyKind::names;
+    EXPECT_EQ(text && row.refers.empty(), free.contains(row.key)) << row.key;
+    if (!row.refers.empty()) referring.insert(row.key);
+    for (const std::string& part : row.refers) {
+      const KeyRow* named = find_key(part);
+      ASSERT_TRUE(named) << row.key << " " << part;
+      EXPECT_TRUE(named->kind == KeyKind::map || find_key(part + "[].name")) << row.key;
+    }
+  }
+  for (const Naming& one : namings)
+    tried.insert(one.pattern);
+  EXPECT_EQ(referring, tried);
+}
+
+TEST(CaseKeys, ThatNameNoPartAreToldWithTheNamesThatThereAre) {
+  for (const Naming& one : namings) {
+    const fs::path file = data_folder / "good" / (one.file + ".toml");
+    const PreparedCase reading = prepare_case(file, {{one.key, "nobody"}});
+    const auto told = [&](const CaseError& error) {
+      return error.item == one.key && error.value == "nobody" &&
+             error.rule.starts_with("names no ") && !error.remedy.empty();
+    };
+    EXPECT_TRUE(std::any_of(reading.errors.begin(), reading.errors.end(), told))
+        << one.key << "\n"
+        << all_texts(reading);
+  }
+}
+
 } // namespace
 } // namespace plyform::schema_test
