@@ -27,6 +27,7 @@ Exit codes: 0 done; 1 a run is missing, was stopped, or cannot be read; 2 wrong 
 
 import argparse
 import csv
+import io
 import shutil
 import statistics
 import subprocess
@@ -308,16 +309,18 @@ def fill(text: Path, name: str, inner: str) -> None:
     if ("table", name) not in MARK.findall(before):
         raise Trouble(f"{text} has no place for this; write a line <!-- table: {name} -->")
     write_whole(text, MARK.sub(lambda match: match[0] if match[2] != name else
-                               f"<!-- table: {name} -->\n\n{inner}\n\n<!-- end -->\n", before))
+                               f"<!-- table: {name} -->\n\n{inner}\n\n<!-- end -->\n", before),
+                rewrite=True)
 
 
 def write_csv(file: Path, figures: list[Figure]) -> None:
-    with file.open("w", newline="", encoding="utf-8") as out:
-        writer = csv.writer(out)
-        writer.writerow(["scene", "figure", "unit", "value", "band", "error", "inside"])
-        for f in figures:
-            writer.writerow([f.scene, f.name, f.unit, f.value, "" if f.band is None else f.band,
-                             f.error, int(f.inside)])
+    out = io.StringIO()
+    writer = csv.writer(out)
+    writer.writerow(["scene", "figure", "unit", "value", "band", "error", "inside"])
+    for f in figures:
+        writer.writerow([f.scene, f.name, f.unit, f.value, "" if f.band is None else f.band,
+                         f.error, int(f.inside)])
+    write_whole(file, out.getvalue())
 
 
 def check(options: argparse.Namespace) -> int:

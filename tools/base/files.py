@@ -10,6 +10,7 @@ import tomllib
 from pathlib import Path
 
 from base.ending import Mistake, Trouble
+from base.outputs import note_read
 
 MIB = 1 << 20
 TEXT = 64 * MIB         # summary.json, case, study: those of 10 000 plies have some MB
@@ -49,6 +50,7 @@ def size_of(path: Path, most: int) -> int:
         raise Trouble(f"{path} cannot be read: {getattr(problem, 'strerror', None) or problem}") \
             from problem
     checked_size(path, status, most)
+    note_read(path, status)
     return status.st_size
 
 

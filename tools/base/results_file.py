@@ -223,8 +223,8 @@ class Results:
                 for name in self.texts(group, "numbers", "number")}
 
     def frame_number(self, frame: int) -> int:
-        """From 0, of a number that may count from the end. Raises Trouble."""
-        number = frame if frame >= 0 else self.count + frame
+        """From 0; -1 is the last. Raises Trouble."""
+        number = self.count - 1 if frame == -1 else frame
         if self.count == 0:
             raise Trouble(f"{self.path} has no state yet: wait for the run's first output")
         if not 0 <= number < self.count:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from .folds import Folds, Line, border_line, find_folds, ring_line
 from .looks import COLOURS, finish, folder_labels
 from .reading import SHEAR, Ply, Trouble, read_states
+from .whole_file import write_whole
 
 
 def draw(options: argparse.Namespace) -> Figure:
@@ -28,7 +29,7 @@ def draw(options: argparse.Namespace) -> Figure:
             records.append(record(str(state.folder), ply, line, folds, options))
             measured.append((f"{label}, {ply.name}" if len(states) > 1 else ply.name, line, folds))
     if options.json:
-        options.json.write_text(json.dumps(records, indent=1) + "\n", encoding="utf-8")
+        write_whole(options.json, json.dumps(records, indent=1) + "\n")
     return draw_lines(measured, options)
 
 

@@ -6,22 +6,30 @@ from collections.abc import Callable
 from pathlib import Path
 
 from base.names import place_in
+from base.outputs import check_kind, check_output, note_written
 
 
-def write_whole(path: Path, text: str) -> Path:
-    """What is no character, as in a name that is no text, is written as ?."""
-    return make_whole(path, lambda part: part.write_bytes(text.encode("utf-8", "replace")))
+def write_whole(path: Path, text: str, rewrite: bool = False) -> Path:
+    """What is no character, as in a name that is no text, is written as ?. `rewrite`: the text was read
+    from there. Raises Mistake, as make_whole."""
+    return make_whole(path, lambda part: part.write_bytes(text.encode("utf-8", "replace")), rewrite)
 
 
-def make_whole(path: Path, write: Callable[[Path], None]) -> Path:
-    """For files that a library writes, which goes by their ending."""
+def make_whole(path: Path, write: Callable[[Path], None], rewrite: bool = False) -> Path:
+    """For files that a library writes, which goes by their ending. Raises Mistake for a file that is read
+    or of somebody else."""
+    check_output(path, rewrite)
     part = path.with_name("part_" + path.name)
+    check_output(part)
     try:
         write(part)
+        if not rewrite:
+            check_kind(path, part)
         os.replace(part, path)
     except BaseException:
         part.unlink(missing_ok=True)
         raise
+    note_written(path)
     return path
 
 

@@ -20,6 +20,7 @@ from pathlib import Path
 from base.ending import NotReached, Trouble
 from base.files import is_file, read_text
 from base.progress import Progress
+from plotting.whole_file import make_whole, write_whole
 from studies.plan import Run
 from studies.reader import is_number
 from studies.run_job import ENDED, KILLED_FOLDER, die_with_parent, read_json
@@ -166,11 +167,12 @@ class Engine:
                 "jobs": self.batches(missing),
                 "runs": {run.name: {"words": run.words(), "line": run.line, "label": run.label}
                          for run in missing}}
-        (folder / "jobs.json").write_text(json.dumps(jobs, indent=1), encoding="utf-8")
+        write_whole(folder / "jobs.json", json.dumps(jobs, indent=1))
         # Snakemake sees no path but this file's: whatever a folder is called, no shell reads it
         words = shlex.join([sys.executable or "python3", "-S", str(HERE / "run_job.py")])
-        (folder / "job.sh").write_bytes(os.fsencode(f'exec {words} jobs.json "$1"\n'))
-        shutil.copyfile(HERE / "Snakefile", folder / "Snakefile")
+        make_whole(folder / "job.sh",
+                   lambda part: part.write_bytes(os.fsencode(f'exec {words} jobs.json "$1"\n')))
+        make_whole(folder / "Snakefile", lambda part: shutil.copyfile(HERE / "Snakefile", part))
         shutil.rmtree(folder / KILLED_FOLDER, ignore_errors=True)
 
     def command(self) -> list[str]:

@@ -3,6 +3,7 @@
 
 import csv
 import fnmatch
+import io
 import json
 import math
 import subprocess
@@ -10,6 +11,7 @@ from pathlib import Path
 
 from base.ending import Trouble
 from base.summary_file import read_summary
+from plotting.whole_file import write_whole
 from studies.discs import COLUMNS, area_means
 from studies.engine import ended, killed
 from studies.errors import SOUND, main_error, mark_front
@@ -141,12 +143,11 @@ def cell(value) -> str:
 
 
 def write_csv(rows: list[dict], columns: list[str], file: Path) -> None:
-    part = file.with_suffix(".part")
-    with open(part, "w", newline="", encoding="utf-8") as out:
-        writer = csv.DictWriter(out, columns, restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows({name: cell(value) for name, value in row.items()} for row in rows)
-    part.rename(file)
+    out = io.StringIO()
+    writer = csv.DictWriter(out, columns, restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows({name: cell(value) for name, value in row.items()} for row in rows)
+    write_whole(file, out.getvalue())
 
 
 def write_table(study: Study, planner: Planner, runs: list[Run], folder: Path,

@@ -94,4 +94,4 @@ def fill(text: Path, study: Study, planner: Planner, rows: list[dict], folder: P
             markdown(study, rows) if match[1] == "table" else \
             reach.markdown(reach.reach(study, planner, rows))
         return f"<!-- {match[1]}: {name} -->\n\n{inner}\n\n<!-- end -->\n"
-    write_whole(text, MARK.sub(replaced, before))
+    write_whole(text, MARK.sub(replaced, before), rewrite=True)
