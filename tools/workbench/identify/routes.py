@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Routes of identification: api/identify. plyform identify does it, as a command that is shown; what
-it has found stands in its files, OUTPUT_fit.csv and OUTPUT_fit.json."""
+it has found stands in its files, OUTPUT.toml and OUTPUT_fit.csv; its report, of a refusal too, in one of the
+workbench's own."""
 
 import json
 import math
+import os
 from pathlib import Path
 
 from fastapi import APIRouter, Body
@@ -20,11 +22,13 @@ from .tests import TESTS
 MOST_CURVES = 50
 MOST_TEXT = 80  # characters of an option
 MOST_REPORT = 16 << 20
+REPORTS = "identified"  # folder of the workbench's own
 OF_FABRICS = ("warp", "weft", "family", "shear", "neo_hookean", "mooney_rivlin", "thickness")
 
 
 def routes(studio: Studio) -> APIRouter:
     router, project = APIRouter(), studio.project
+    forget_reports(studio)
 
     @router.get("/identify/tests")
     def tests() -> list[dict]:
@@ -54,6 +58,16 @@ def routes(studio: Studio) -> APIRouter:
         return {"record": record, "log": studio.processes.log(number), **found(project, record)}
 
     return router
+
+
+def forget_reports(studio: Studio) -> None:
+    """Those of which there is no record any more."""
+    folder = studio.project.own / REPORTS
+    folder.mkdir(exist_ok=True)
+    known = {record["about"].get("report") for record in studio.processes.records("identify")}
+    for file in folder.iterdir():
+        if file.name not in known:
+            file.unlink()
 
 
 def is_fabric(file: Path) -> bool:
@@ -107,15 +121,19 @@ def curves_of(project: Project, given, what: str) -> list[str]:
     return words
 
 
-def output_file(project: Project, order: dict, beside: Path) -> Path:
+def output_file(studio: Studio, order: dict, beside: Path) -> Path:
     """Of what is found, over nothing else's. Raises Refused."""
-    name = plain_name(str(order.get("output") or ""))
+    project = studio.project
+    if not order.get("output"):
+        raise Refused("give a name for the new file", 422)
+    name = plain_name(str(order["output"]))
     path = beside.parent / (name if name.endswith(".toml") else f"{name}.toml")
     path = project.inside(project.relative(path))
-    others = [path.with_name(f"{path.stem}_fit{ending}") for ending in (".csv", ".json")]
-    taken = [one for one in (path, *others) if one.exists() or one.is_symlink()]
+    taken = [one for one in (path, path.with_name(f"{path.stem}_fit.csv")) if one.exists() or one.is_symlink()]
     if any(not is_file(one) or one.is_symlink() for one in taken) or path == beside:
         raise Refused(f"{project.relative(path)} cannot be written over: give another name", 409)
+    if studio.processes.makes(project.relative(path)):
+        raise Refused(f"{project.relative(path)} is just being made: let that end first", 409)
     if taken and order.get("replace") is not True:
         raise Refused(f"{project.relative(taken[0])} is there already: give another name, or let it be replaced", 409)
     return path
@@ -135,10 +153,11 @@ def ordered(studio: Studio, order: dict) -> tuple[list, dict]:
     curves = curves_of(project, order.get("curves"), "curves")
     if not curves:
         raise Refused("there is no curve: choose a file", 422)
-    beside = curve_file(project, str(order.get("fabric") or "")) if test["fabric"] else \
-        curve_file(project, order["curves"][0]["path"])
-    output = output_file(project, order, beside)
-    report = output.with_name(f"{output.stem}_fit.json")
+    if test["fabric"] and not order.get("fabric"):
+        raise Refused("choose the fabric to start from", 422)
+    beside = curve_file(project, str(order["fabric"]) if test["fabric"] else order["curves"][0]["path"])
+    output = output_file(studio, order, beside)
+    report = project.own / REPORTS / f"{os.urandom(8).hex()}.json"
     words = ["identify", test["word"], *curves]
     for option in options:
         value = typed(option, values.get(option["name"]))
@@ -146,15 +165,14 @@ def ordered(studio: Studio, order: dict) -> tuple[list, dict]:
             words.append(f"--{option['name']}" + (f"={value}" if value else ""))
     if test["fabric"]:
         words += ["--fabric", f"./{project.relative(beside)}"]
-    words += ["-o", f"./{project.relative(output)}", "--report", f"./{project.relative(report)}"]
+    words += ["-o", f"./{project.relative(output)}", "--report", f"./{report.relative_to(project.root)}"]
     others = curves_of(project, order.get("others") or [], "others")
     if others and not test["others"]:
         raise Refused(f"{test['word']} has one kind of specimens", 422)
     if others:
         words += [f"--{test['others']['name']}", *others]
-    report.unlink(missing_ok=True)
     return [studio.program, *words], {"test": test["word"], "output": project.relative(output),
-                                      "report": project.relative(report), "order": order}
+                                      "report": report.name, "order": order}
 
 
 def plain(value):
@@ -166,7 +184,7 @@ def found(project: Project, record: dict) -> dict:
     """The report, and the rows measured and fitted; null where there is none (yet)."""
     told = {"report": None, "fit": None, "text": None}
     try:
-        file = project.inside(record["about"]["report"])
+        file = project.own / REPORTS / Path(record["about"]["report"]).name
         if is_file(file):
             told["report"] = json.loads(read_bytes(file, MOST_REPORT))
         rows = project.inside(record["about"]["output"].removesuffix(".toml") + "_fit.csv")

@@ -82,6 +82,11 @@ class Processes:
     def records(self, kind: str = "") -> list[dict]:
         return self.kept.every(kind)
 
+    def makes(self, path: str) -> bool:
+        """Whether one that has not ended is to write this file of the folder."""
+        return any(path in (record["about"].get("output"), *record["about"].get("outputs", ()))
+                   for record in self.records() if record["state"] in LIVE)
+
     def log(self, number: str, most: int = TAIL) -> str:
         """The end of what it has printed."""
         return self.kept.log(number, most)

@@ -17,6 +17,7 @@ LAYUPS = ("csv", "vtu", "infusion", "abaqus", "calculix", "lsdyna", "optistruct"
 REFERENCES = ("", "part", "side", "x", "y", "z")
 PARTS = (".inp", ".cdb", ".bdf", ".nas", ".dat", ".fem", ".k", ".key", ".dyn", ".vtu")
 OUTLINES = (".csv", ".dxf")
+FILES = {"part": "part mesh", "trim": "trim line", "case": "case"}  # as the page calls them
 MOST_FRAME, MOST_ITERATIONS, MOST_THREADS = 10**6, 20, 256
 
 
@@ -117,6 +118,8 @@ def mirrors(wish: dict) -> list[str]:
 
 
 def file_of(project: Project, wish: dict, key: str, endings: tuple[str, ...]) -> Path:
+    if not wish.get(key):
+        raise Refused(f"choose a {FILES[key]}: a file that ends with {', '.join(endings)}", 422)
     path = project.existing(text(wish, key))
     if not path.is_file() or path.suffix.lower() not in endings:
         raise Refused(f"{key}: a file that ends with {', '.join(endings)}", 422)
