@@ -78,6 +78,10 @@ def made_and_listed(server):
     assert {one["name"] for one in found["fabrics"]} == {"glass plain weave"}
 
 
+def stepped(server, way):
+    return server.send(f"api/case/{way}", {"version": server.get("api/case", path=CASE)["version"]}, path=CASE)
+
+
 def changed_and_taken_back(server):
     begun = server.get("api/case", path=CASE)
     assert begun["error"] is None and not begun["can_undo"] and not begun["can_redo"]
@@ -85,21 +89,26 @@ def changed_and_taken_back(server):
     once = server.send("api/case", {"version": begun["version"], "edits": [edit]}, "PATCH", path=CASE)
     assert once["tree"]["tool"][0]["stroke"] == 20 and once["made"] == ["tool.0.stroke"] and once["can_undo"]
     assert (server.folder / CASE).read_text() == once["text"] != begun["text"]
-    assert server.call("PATCH", "api/case", {"version": begun["version"], "edits": [edit]}, query={"path": CASE})[0] == 409
+    other = {"op": "set", "key": "tool.punch.stroke", "value": 21}
+    stale = {"version": begun["version"], "edits": [other]}
+    assert server.call("PATCH", "api/case", stale, query={"path": CASE})[0] == 409
+    status, said = server.call("PATCH", "api/case", {**stale, "base": begun["text"]}, query={"path": CASE})
+    assert (status, said["clashes"][0]["what"]) == (409, "tool.punch.stroke") and said["now"]["text"] == once["text"]
     twice = server.send("api/case", {"version": once["version"], "text": once["text"] + "# more\n"}, "PUT", path=CASE)
     status, said = server.call("PUT", "api/case", {"version": twice["version"], "text": "[ply\n"}, query={"path": CASE})
     assert status == 422 and said["line"] == 1 and said["column"] > 1 and said["error"], said
     assert server.get("api/case", path=CASE)["text"] == twice["text"]
     server.stop(signal.SIGKILL)
     server.start()  # earlier texts are found again
-    assert server.send("api/case/undo", path=CASE)["text"] == once["text"]
-    back = server.send("api/case/undo", path=CASE)
+    assert stepped(server, "undo")["text"] == once["text"]
+    back = stepped(server, "undo")
     assert back["text"] == begun["text"] and not back["can_undo"] and back["can_redo"]
-    assert server.call("POST", "api/case/undo", {}, query={"path": CASE})[0] == 409
-    assert server.send("api/case/redo", path=CASE)["text"] == once["text"]
-    again = server.send("api/case/redo", path=CASE)
+    assert server.call("POST", "api/case/undo", {"version": back["version"]}, query={"path": CASE})[0] == 409
+    assert server.call("POST", "api/case/redo", {"version": once["version"]}, query={"path": CASE})[0] == 409
+    assert stepped(server, "redo")["text"] == once["text"]
+    again = stepped(server, "redo")
     assert again["text"] == twice["text"] and not again["can_redo"]
-    server.send("api/case/undo", path=CASE)
+    stepped(server, "undo")
 
 
 def two_pages(server):
@@ -114,7 +123,8 @@ def two_pages(server):
     (server.folder / CASE).write_text(text)
     other.heard("case", path=CASE, version=server.get("api/case", path=CASE)["version"])
     assert server.call("PATCH", "api/case", {"version": after["version"], "edits": [edit]}, query={"path": CASE})[0] == 409
-    assert server.send("api/case/undo", path=CASE)["text"] == after["text"]  # that of the editor
+    assert server.call("POST", "api/case/undo", {"version": after["version"]}, query={"path": CASE})[0] == 409
+    assert stepped(server, "undo")["text"] == after["text"]  # that of the editor
     undone = server.get("api/case", path=CASE)["version"]
     server.call("GET", "api/check", query={"path": CASE, "version": undone})
     fabric = server.folder / FABRIC
@@ -144,7 +154,7 @@ def told_by_the_program(server):
     assert radius["file"] == CASE and line.startswith("radius = -1"), radius
     assert str(server.folder) not in json.dumps(said)
     assert server.call("GET", "api/check", query={"path": CASE, "version": now["version"]})[0] == 409
-    server.send("api/case/undo", path=CASE)
+    stepped(server, "undo")
     rows = {row["key"]: row for row in server.get("api/keys")}
     assert rows["tool[].radius"]["unit"] == "mm" and len(rows) > 150
 
@@ -179,7 +189,12 @@ def taken_in(server):
     row = struct.pack("<12fH", *[0.0] * 3, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0)
     stl = bytes(80) + struct.pack("<I", 1) + row
     assert upload("a.stl", stl) == {"path": "first/a.stl", "kind": "mesh", "size": len(stl)}
-    assert upload("a.stl", stl, replace=1)["path"] == "first/a.stl"
+    status, said = server.call("POST", "api/upload", stl, query={"name": "a.stl", "folder": "first"})
+    assert status == 409, said
+    there = said["clashes"][0]["now"]
+    assert upload("a.stl", stl, replace=there)["path"] == "first/a.stl"
+    status, said = server.call("POST", "api/upload", stl, query={"name": "a.stl", "folder": "first", "replace": there})
+    assert status == 409 and "written meanwhile" in said["error"], said
     tool = server.send("api/import", {"path": "first/a.stl", "as": "tool", "unit": "inch", "case": CASE})
     assert tool["value"] == {"shape": "mesh", "file": "a.stl", "scale": 25.4} and tool["facets"] == 1
     assert max(abs(a - b) for a, b in zip(tool["box_mm"][1], [25.4, 50.8, 0])) < 1e-9
@@ -200,7 +215,7 @@ def taken_in(server):
     edits = [{"op": "add", **{key: tool[key] for key in ("key", "name", "value")}}]
     after = server.send("api/case", {"version": now["version"], "edits": edits}, "PATCH", path=CASE)
     assert after["made"] == ["tool.3"] and after["tree"]["tool"][3]["name"] == "a"
-    server.send("api/case/undo", path=CASE)
+    stepped(server, "undo")
     for wish in ({"path": "first/a.stl", "as": "blank"}, {"path": "first/a.stl", "as": "tool", "unit": "ell"},
                  {"path": CASE, "as": "fabric"}, {"path": "first", "as": "tool"}):
         assert server.call("POST", "api/import", wish)[0] == 422, wish

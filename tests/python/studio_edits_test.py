@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Edits of case files: studio_edits_test.py TOOLS CASES. Each kind of edit of each kind of key of each
+"""Edits of case files: studio_edits_test.py TOOLS CASES PROGRAM. Each kind of edit of each kind of key of each
 shipped case; comments and all other lines stay."""
 
 import collections
 import copy
 import difflib
+import json
 import re
+import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -20,11 +22,13 @@ from workbench.toml import edits as toml_edits, model as toml_model  # noqa: E40
 from workbench.server.project import Refused  # noqa: E402
 
 CASES = Path(sys.argv[2])
+KEYS = json.loads(subprocess.run([sys.argv[3], "keys", "--json"], capture_output=True, check=True).stdout)
+REFERS = {row["key"]: row["refers"] for row in KEYS if row["refers"]}
 ODD = 'with "quotes", \\ and é\n'
 
 
 def edited(text, **edit):
-    return toml_edits.edited(text, [edit])
+    return toml_edits.edited(text, [edit], REFERS)
 
 
 def refused(text, words, **edit):
@@ -164,11 +168,82 @@ def places():
     assert deep.endswith("\n\n[solver]\nduration = 0.1\n")
 
 
+FAMILIES = """[[family]]
+name = "tow"
+
+[[family]]
+name = "axial"
+
+[[crossing]]
+families = ["tow", "axial"]
+"""
+REFERRING = """[blanks.cut]
+zone = [ { tool = "a" } ]
+
+[fabrics.other]
+family = [ { name = "tow" }, { name = "other" } ]
+crossing = [ { families = ["tow", "other"] } ]
+
+[fabrics.glass]
+family = [ { name = "tow" }, { name = "axial" } ]
+crossing = [ { families = ["tow", "axial"] } ]
+
+[friction.wet]
+law = "film"
+
+[[ply]]
+name = "low"
+blank = "cut"
+fabric = "glass"
+
+[[ply]]
+name = "top"
+blank = "cut"
+fabric = "glass"
+
+[[tool]]
+name = "a"
+
+[[boundary]]
+name = "hung"
+ply = "low"
+carried_by = "a"
+
+[[load]]
+between = ["low", "top"]
+
+[[load]]
+ply = "low"
+
+[contact]
+friction_law = "wet"
+
+[[contact.pair]]
+between = ["a", "low"]
+friction_law = "wet"
+"""
+
+
 def references():
     named, _ = edited(TEXT, op="rename", key="tool.punch", name="stamp")
     assert 'name = "stamp"' in named and 'between = ["stamp", "ply1"], friction = 0.1' in named
     named, made = edited(TEXT, op="rename", key="blanks.sheet", name="blank")
     assert "[blanks.blank]" in named and 'blank = "blank"' in named and made == ["blanks.blank"]
+    for key, words in (("tool.a", ["carried_by", "tool", "between = [\"new\", \"low\"]"]),
+                       ("ply.low", ["ply", "between = [\"a\", \"new\"]", "between = [\"new\", \"top\"]"]),
+                       ("blanks.cut", ["blank"]), ("fabrics.glass", ["fabric"]),
+                       ("friction.wet", ["friction_law", "friction_law"]),
+                       ("fabrics.glass.family.tow", ["families = [\"new\", \"axial\"]"])):
+        named, _ = edited(REFERRING, op="rename", key=key, name="new")
+        old = key.rpartition(".")[2]
+        left = named.partition("[fabrics.glass]")[2] if old == "tow" else named
+        assert f'"{old}"' not in left and f".{old}]" not in left, (key, named)
+        changed = "\n".join(line for line in named.split("\n") if "new" in line)
+        for word in words:
+            assert word in changed, (key, word, changed)
+        assert 'families = ["tow", "other"]' in named, key  # of another fabric
+    of_file, _ = edited(FAMILIES, op="rename", key="family.tow", name="new")
+    assert 'families = ["new", "axial"]' in of_file
     refused(TEXT, "is taken", op="rename", key="tool.punch", name="die")
     refused(TEXT, "is taken", op="rename", key="tool.punch", name="ply1")
     refused(TEXT, "take letters", op="rename", key="tool.punch", name="a b")
@@ -201,12 +276,12 @@ def line_ends():
 
 def many_at_once():
     edits = [{"op": "copy", "key": "ply.0"} for _ in range(19)]
-    after, made = toml_edits.edited(TEXT, edits)
+    after, made = toml_edits.edited(TEXT, edits, REFERS)
     names = [ply["name"] for ply in tomllib.loads(after)["ply"]]
     assert len(set(names)) == 20 and made[0] == "ply.1"
     before = copy.copy(TEXT)
     try:
-        toml_edits.edited(TEXT, [*edits, {"op": "remove", "key": "nothing"}])
+        toml_edits.edited(TEXT, [*edits, {"op": "remove", "key": "nothing"}], REFERS)
         raise AssertionError("half of the edits were done")
     except Refused:
         assert TEXT == before

@@ -134,9 +134,11 @@ def chosen_files(page: Page) -> None:
         page.until(lambda n=tools - 2 + left: len(page.tree()["tool"]) == n, "it is taken back")
     curve = page.server.folder.parent / "curve.csv"
     curve.write_text("extension (mm),load (N)\n0,0\n1,2\n", encoding="utf-8")
-    page.give("#add-files", curve)
-    page.until(lambda: page.texts("#curve-rows code") == ["mine/curve.csv"], "the curve is there")
-    page.until(lambda: page.driver.current_url.endswith("#identify/curve/mine/curve.csv"), "the address is its")
+    second = curve.with_name("second.csv")
+    second.write_bytes(curve.read_bytes())
+    page.give("#add-files", curve, second)
+    page.until(lambda: page.texts("#curve-rows code") == ["mine/curve.csv", "mine/second.csv"], "both curves are there")
+    page.until(lambda: "#identify/curve/mine/curve.csv" in page.driver.current_url, "the address is theirs")
     page.press("#panels a:first-child")
     page.until(lambda: page.find("#panel-setup").is_displayed(), "the set-up is shown")
 
@@ -156,11 +158,16 @@ def cancelled(page: Page) -> None:
     page.type("#import-part-shear", "90")
     page.pick("#import-part-on", "punch")
     page.pick("#import-part-solid", "tool")
+    page.pick("#import-part-tools", "stay")
+    page.type("#import-part-direction", "0 0 0")
     page.type("#import-part-deflection", "0.1")
     page.press("#import-part-replace")
     page.press("#import-part-go")
     page.until(lambda: "0 to 80 degrees" in page.text("#import-part .words"), "90 degrees are too many")
     page.type("#import-part-shear", "0")
+    page.press("#import-part-go")
+    page.until(lambda: "not all 0" in page.text("#import-part .words"), "a direction is wanted")
+    page.type("#import-part-direction", "0 0 -1")
     page.press("#import-part-go")
     page.until(lambda: "is no STEP file" in page.text("#import-part .words"), "what is no part is told")
     page.press("#import-part-cancel")
@@ -206,5 +213,29 @@ def run(page: Page) -> None:
     assert "by_click" in names, names
 
 
-go_through([two_pages, new_cases, tabs, dropped_files, chosen_files, cancelled, run])
+def in_place_of_tools(page: Page) -> None:
+    """Die and punch that were made take the place of the tools that there are, by one change; those of the same
+    file stay what they are."""
+    before = page.written()
+    for name in ("part_die.stl", "part_punch.stl"):
+        (page.file.parent / name).write_bytes(STL)
+    add = ("return plyform_setup.imports.addMeshes(['mine/part_die.stl', 'mine/part_punch.stl'], { bottom: 3, punch: "
+           "{ position: [0, 0, arguments[0]], stroke: arguments[0] } }, [0, 0, -1], arguments[1])")
+    page.js(add, 25, True)
+    tools = page.until(lambda: page.tree()["tool"], "there are tools")
+    assert sorted(tool["name"] for tool in tools) == ["die", "punch"], tools
+    punch = next(tool for tool in tools if tool["name"] == "punch")
+    assert punch == {"name": "punch", "shape": "mesh", "file": "part_punch.stl", "motion": "driven", "direction": [0, 0, -1],
+                     "position": [0, 0, 25], "stroke": 25}, punch
+    assert page.tree()["stack"]["bottom"] == 3
+    page.js(add, 30, False)  # made once more, of the same names
+    tools = page.tree()["tool"]
+    assert len(tools) == 2 and next(tool for tool in tools if tool["name"] == "punch")["stroke"] == 30, tools
+    page.until(lambda: page.js("return plyform_setup.done.length") >= 2)
+    for _ in range(2):
+        page.press("#undo")
+    page.until(lambda: page.written() == before, "it is as before")
+
+
+go_through([two_pages, new_cases, tabs, dropped_files, chosen_files, cancelled, in_place_of_tools, run])
 first_case()

@@ -209,6 +209,8 @@ def mistakes(page: Page) -> None:
     page.until(lambda: "wrong" not in page.find("#check-state").get_attribute("class"), seconds=120)
     page.item("ply.1")
     page.key("ply.1.name", page.tree()["ply"][0]["name"])
+    page.until(lambda: "is taken" in page.text("#trouble"), "a name of another ply is refused")
+    page.key("ply.1.angle", "500")
     page.until(lambda: page.seen(".fault-words:not(.warning)"), seconds=120)
     page.until(lambda: page.seen('[data-item="ply.1"] b.wrong'), "it is marked in the outline")
     page.until(lambda: page.seen(".fault-line"), "and in the text")
@@ -216,7 +218,7 @@ def mistakes(page: Page) -> None:
     page.item("case")
     page.press(".fault-words:not(.warning)")
     page.until(lambda: page.js("return plyform_setup.chosen") == "ply.1")
-    page.until(lambda: page.seen('[data-at="ply.1.name"] .words'), "it stands at its key")
+    page.until(lambda: page.seen('[data-at="ply.1.angle"] .words'), "it stands at its key")
     page.press("#undo")
     page.until(lambda: not page.seen(".fault-words:not(.warning)"), seconds=120)
 

@@ -114,8 +114,8 @@ def new_case(files: CaseFiles, name: str, source: str) -> str:
     folder.mkdir()
     try:
         for name_there, file in copies.items():
-            project.write(folder / name_there, file.read_bytes())
-        project.write(path, text.encode())
+            project.write(folder / name_there, file.read_bytes(), None)
+        project.write(path, text.encode(), None)
     except OSError:  # a full disk: its name stays free
         shutil.rmtree(folder, ignore_errors=True)
         raise
@@ -135,7 +135,7 @@ def from_example(name: str) -> tuple[str, dict[str, Path]]:
             there = f"{path.parent.name}_{path.name}"
         copies[there] = path
         edits.append({"op": "set", "key": [str(part) for part in key], "value": there})
-    return toml_edits.edited(text, edits)[0], copies
+    return toml_edits.edited(text, edits, {})[0], copies
 
 
 def from_here(files: CaseFiles, source: str, folder: Path) -> str:
@@ -146,4 +146,4 @@ def from_here(files: CaseFiles, source: str, folder: Path) -> str:
     edits = [{"op": "set", "key": [str(part) for part in key],
               "value": Path(os.path.relpath(os.path.realpath(path), folder)).as_posix()}
              for key, path in named_files(text, file)]
-    return toml_edits.edited(text, edits)[0]
+    return toml_edits.edited(text, edits, {})[0]

@@ -2,11 +2,13 @@
 """Routes of the folder and its cases: api/folder, cases, examples, case, keys, check, scene."""
 
 import threading
+from collections.abc import Callable
 
 from fastapi import APIRouter, Body
 from fastapi.responses import JSONResponse, Response
 
 from ..scene.reading import CaseReading
+from ..server.project import Changed
 from ..server.studio import Studio
 from . import new_case
 from .files import CaseFiles, NoToml
@@ -15,7 +17,7 @@ from .folder import Folder
 
 def routes(studio: Studio) -> APIRouter:
     router = APIRouter()
-    files, folder = CaseFiles(studio.project, studio.events), Folder(studio.project)
+    files, folder = studio.cases, Folder(studio.project)
     reading = CaseReading(files, studio.program)
     reading.watch(studio.processes.ending, folder)
     router.add_event_handler("shutdown", reading.stop)
@@ -24,6 +26,10 @@ def routes(studio: Studio) -> APIRouter:
     def contents() -> dict:
         threading.Thread(target=reading.warm, daemon=True).start()
         return folder.contents()
+
+    @router.get("/keys")
+    def keys() -> list[dict]:
+        return studio.keys
 
     @router.get("/examples")
     def examples() -> list[dict]:
@@ -44,33 +50,35 @@ def add_case(router: APIRouter, files: CaseFiles) -> None:
         return files.answer(path)
 
     @router.put("/case")
-    def put(path: str, text: str = Body(), version: str = Body()):
-        try:
-            return files.put(path, text, version)
-        except NoToml as problem:
-            return JSONResponse({"error": str(problem), "line": problem.line, "column": problem.column}, 422)
+    def put(path: str, text: str = Body(), version: str = Body(), base: str | None = Body(None),
+            over: bool = Body(False)):
+        return told(files, path, lambda: files.put(path, text, version, base, over))
 
     @router.patch("/case")
-    def patch(path: str, edits: list[dict] = Body(), version: str = Body()):
-        try:
-            return files.edit(path, edits, version)
-        except NoToml as problem:
-            return JSONResponse({"error": str(problem), "line": problem.line, "column": problem.column}, 422)
+    def patch(path: str, edits: list[dict] = Body(), version: str = Body(), base: str | None = Body(None),
+              over: bool = Body(False)):
+        return told(files, path, lambda: files.edit(path, edits, version, base, over))
 
     @router.post("/case/undo")
-    def undo(path: str) -> dict:
-        return files.step(path, -1)
+    def undo(path: str, version: str = Body(), wanted: str | None = Body(None)):
+        return told(files, path, lambda: files.step(path, -1, version, wanted))
 
     @router.post("/case/redo")
-    def redo(path: str) -> dict:
-        return files.step(path, 1)
+    def redo(path: str, version: str = Body(), wanted: str | None = Body(None)):
+        return told(files, path, lambda: files.step(path, 1, version, wanted))
+
+
+def told(files: CaseFiles, path: str, change: Callable[[], dict]):
+    """What the change answers, or why it was not made: with its place, or with the file as it is now."""
+    try:
+        return change()
+    except NoToml as problem:
+        return JSONResponse({"error": str(problem), "line": problem.line, "column": problem.column}, 422)
+    except Changed as problem:
+        return JSONResponse({"error": str(problem), "clashes": problem.clashes, "now": files.answer(path)}, 409)
 
 
 def add_reading(router: APIRouter, reading: CaseReading) -> None:
-    @router.get("/keys")
-    def keys() -> list[dict]:
-        return reading.keys()
-
     @router.get("/check")
     def check(path: str, version: str) -> dict:
         return reading.check(path, version)

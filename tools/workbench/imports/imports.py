@@ -5,6 +5,7 @@ of a part, the command that does it."""
 import functools
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -20,6 +21,9 @@ from ..results.listing import check_links
 from ..server.project import Refused
 from ..server.studio import Studio
 
+OF_DRAWINGS = {"1": "inch", "2": "foot", "4": "mm", "5": "cm", "6": "m", "14": "dm"}  # $INSUNITS, as the program knows it
+MOST_HEADER = 1 << 20  # bytes of a drawing in which its unit stands
+MOST_DRAWING = 64 << 20
 MOST_MESH = 512 << 20
 ROW = np.dtype([("normal", "<f4", 3), ("x", "<f4", (3, 3)), ("end", "<u2")])  # of binary STL
 
@@ -41,9 +45,12 @@ def imported(studio: Studio, files: CaseFiles, wish: dict) -> dict:
         return {"key": "tool", "name": name, "value": {"shape": "mesh", "file": named, **scaled(scale)},
                 **box_of(studio, path, scale)}
     if (kind, what) == ("drawing", "blank"):
-        value = {"outline_file": named, **scaled(unit_of(studio, wish)), "mesh": "fibres",
+        said = unit_of_drawing(studio, path)
+        own = said or "mm"  # as the program takes it without a scale
+        scale = {"scale": unit_of(studio, wish)} if wish.get("unit", own) != own else {}
+        value = {"outline_file": named, **scale, "mesh": "fibres",
                  "element_size": number_of(wish, "element_size", 10.0, 0.01, 1e4)}
-        return {"key": "blanks", "name": name, "value": value}
+        return {"key": "blanks", "name": name, "value": value, "unit": said}
     if (kind, what) == ("toml", "fabric"):
         text, _ = files.read(path)
         parsed(text)
@@ -58,6 +65,13 @@ def imported(studio: Studio, files: CaseFiles, wish: dict) -> dict:
 
 def scaled(scale: float) -> dict:
     return {} if scale == 1.0 else {"scale": scale}
+
+
+def unit_of_drawing(studio: Studio, path: Path) -> str:
+    """As its header says; "" if that says nothing, or one that is not known, which the check of the case tells."""
+    head = studio.project.read(path, MOST_DRAWING)[:MOST_HEADER].decode("latin-1")
+    found = re.search(r"\$INSUNITS\s*\n\s*70\s*\n\s*(\d+)\s*\n", head)
+    return OF_DRAWINGS.get(found[1], "") if found else ""
 
 
 @functools.lru_cache(maxsize=1)
@@ -90,6 +104,8 @@ def of_part(studio: Studio, files: CaseFiles, path: Path, wish: dict) -> dict:
     stem = path.with_suffix("")
     outputs = [stem.with_name(f"{stem.name}{end}.stl") for end in (("_die", "_punch") if room else ("",))]
     for output in outputs:
+        if studio.processes.makes(studio.project.relative(output)):
+            raise Refused(f"{output.name} is just being made: let that end first", 409)
         if output.is_symlink() or output.exists() and not wish.get("replace"):
             raise Refused(f"there is a {output.name} already: remove it, or replace it", 409)
     command = [sys.executable, str(studio.tools / "mesh_tool.py"), str(path), "--deflection", f"{deflection:g}",

@@ -5,7 +5,6 @@ from fastapi import APIRouter, Body, Request
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
-from ..cases.files import CaseFiles
 from ..server.project import Refused
 from ..server.studio import Studio
 from . import uploads
@@ -13,11 +12,11 @@ from .imports import imported
 
 
 def routes(studio: Studio) -> APIRouter:
-    router, files = APIRouter(), CaseFiles(studio.project, studio.events)
+    router, files = APIRouter(), studio.cases
     uploads.clear(studio.project)
 
     @router.post("/upload")
-    async def upload(request: Request, name: str, folder: str = "", replace: bool = False) -> dict:
+    async def upload(request: Request, name: str, folder: str = "", replace: str = "") -> dict:
         taken = uploads.Upload(studio.project, folder, name, uploads.length_of(request.headers), replace)
         try:
             async for piece in request.stream():

@@ -1,22 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files that are dropped into the page: written as they come into a part of their own, which gets its name
-when it is whole, and never that of another file unless that is asked for."""
+when it is whole, and never that of another file unless the page names the one that it is to replace: by the
+stamp that it was told when that was in the way."""
 
-import errno
 import os
 import shutil
 from pathlib import Path
 
 from ..cases.folder import KINDS
 from ..server.guard import Refusal
-from ..server.project import Project, Refused, plain_name
+from ..server.project import Changed, Project, Refused, named, plain_name
+from ..server.swap import exchanged
 
-NO_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)  # FAT, some shares
 SPARE = 64 << 20  # bytes that stay free on the disk
 
 
 class Upload:
-    def __init__(self, project: Project, folder: str, name: str, size: int, replace: bool):
+    def __init__(self, project: Project, folder: str, name: str, size: int, replace: str):
         self.project, self.replace = project, replace
         if Path(plain_name(name)).suffix.lower() not in KINDS:
             raise Refused(f"{name}: a file that ends with {', '.join(sorted(KINDS))} can be taken in; save a "
@@ -36,8 +36,13 @@ class Upload:
         name = self.path.name
         if self.path.is_symlink() or self.path.is_dir():
             raise Refused(f"{name} is a link or a folder there", 409)
-        if self.path.exists() and not self.replace:
-            raise Refused(f"there is a {name} already: give it another name, or replace it", 409)
+        if self.path.exists() and stamp_of(self.path) != self.replace:
+            raise self.taken()
+
+    def taken(self) -> Changed:
+        words = "has been written meanwhile" if self.replace else "is there already"
+        return Changed(f"{self.path.name} {words}: give yours another name, or replace it",
+                       [{"what": self.path.name, "now": stamp_of(self.path), "wanted": ""}])
 
     def write(self, piece: bytes) -> None:
         self.file.write(piece)
@@ -50,32 +55,35 @@ class Upload:
             if not self.project.holds(folder):
                 raise Refused("this folder is a link out of that of the workbench")
             self.check_place()
-            if self.replace:
-                os.replace(self.part, self.path.name, dst_dir_fd=folder)
-            else:
-                self.named(folder)
+            if self.path.exists():
+                self.replaced(folder)
+            elif not named(folder, str(self.part), self.path.name):  # come between
+                raise self.taken()
         finally:
             os.close(folder)
         return {"path": self.project.relative(self.path), "kind": KINDS[self.path.suffix.lower()],
                 "size": self.path.stat().st_size}
 
-    def named(self, folder: int) -> None:
-        try:
-            try:
-                os.link(self.part, self.path.name, dst_dir_fd=folder)
-            except OSError as problem:
-                if problem.errno not in NO_LINKS:
-                    raise
-                flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
-                os.close(os.open(self.path.name, flags, dir_fd=folder))
-                os.replace(self.part, self.path.name, dst_dir_fd=folder)
-        except FileExistsError as problem:  # come between
-            raise Refused(f"there is a {self.path.name} already: give it another name, or replace it", 409) from problem
+    def replaced(self, folder: int) -> None:
+        if not exchanged(folder, str(self.part), self.path.name):
+            os.replace(self.part, self.path.name, dst_dir_fd=folder)
+        elif stamp_of(self.part) != self.replace:  # written in between: that goes back
+            exchanged(folder, str(self.part), self.path.name)
+            raise self.taken()
 
     def end(self) -> None:
         """Whatever has happened."""
         self.file.close()
         self.part.unlink(missing_ok=True)
+
+
+def stamp_of(path: Path) -> str:
+    """Another one when the file is; "" if there is none."""
+    try:
+        status = os.stat(path)
+    except OSError:
+        return ""
+    return f"{status.st_mtime_ns}-{status.st_size}-{status.st_ino}"
 
 
 def clear(project: Project) -> None:

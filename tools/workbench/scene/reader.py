@@ -107,24 +107,7 @@ def outlook(plyform, request: dict) -> tuple[dict, bytes]:
                         "estimated_s": found.estimated_s, "stop": found.stop}}, b""
 
 
-def keys(plyform, request: dict) -> tuple[dict, bytes]:
-    return {"keys": [{name: simple(getattr(key, name)) for name in dir(type(key))
-                      if isinstance(getattr(type(key), name), property)} for key in plyform.keys()]}, b""
-
-
-def simple(value):
-    """What JSON has; of an object its properties, of a word of a list of words its name."""
-    if value is None or isinstance(value, (str, int, float, bool)):
-        return value
-    if isinstance(value, dict):
-        return {str(key): simple(part) for key, part in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [simple(part) for part in value]
-    names = [name for name in dir(type(value)) if isinstance(getattr(type(value), name), property)]
-    return {name: simple(getattr(value, name)) for name in names if not name.startswith("_")} or str(value)
-
-
-ACTS = {"scene": scene, "draft": draft, "check": check, "outlook": outlook, "keys": keys}
+ACTS = {"scene": scene, "draft": draft, "check": check, "outlook": outlook}
 
 if __name__ == "__main__":
     main()

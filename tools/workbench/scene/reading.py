@@ -99,11 +99,6 @@ class CaseReading:
             if problem.code != 409:  # a newer one comes
                 self.files.events.send("outlook", path=name, version=version, outlook=None, why=str(problem))
 
-    def keys(self) -> list[dict]:
-        said, _ = self.workers.scene.ask("keys")
-        self.without_fault(said)
-        return said["keys"]
-
     def bytes_of(self, worker: Worker, act: str, path: Path, stamp: tuple, **more) -> bytes:
         said, content = worker.ask(act, file=str(path), stamp=stamp, **more)
         self.sound(said, path, stamp)

@@ -15,6 +15,7 @@ from base.files import is_file
 from reporting.page import THREE, WEB as REPORT_WEB, json_in_script
 
 from .guard import HEADERS, Refusal
+from .project import Changed
 from .studio import Studio
 
 WEB = Path(__file__).resolve().parents[1] / "web"
@@ -108,4 +109,5 @@ async def wrong(request: Request, problem: Exception) -> JSONResponse:
     if not isinstance(problem, (Trouble, Refusal, OSError, MemoryError)):
         code, words = 500, (f"this is a fault of plyform, not of your files: {type(problem).__name__}: {problem}, at "
                             f"{place_of(problem)}; please report it")
-    return JSONResponse({"error": one_line(words)}, code)
+    clashes = {"clashes": problem.clashes} if isinstance(problem, Changed) else {}
+    return JSONResponse({"error": one_line(words), **clashes}, code)

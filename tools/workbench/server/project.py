@@ -10,6 +10,9 @@ from pathlib import Path
 
 from base.ending import Trouble, one_line
 
+from .swap import swapped
+
+NO_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)  # FAT, some shares
 OWN = ".plyform"  # folder of the workbench: its lock, records of runs and jobs, logs
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.\-]{0,79}")  # of a case, a run, a file that is dropped in
 
@@ -20,6 +23,16 @@ class Refused(Trouble):
     def __init__(self, words: str, code: int = 403):
         super().__init__(words)
         self.code = code
+
+
+class Changed(Refused):
+    """What a page has changed is not any more as the page was shown it. `clashes`: {what, now, wanted} of
+    each thing that both have changed; `race`: it was written just now, and tried again it may do."""
+
+    def __init__(self, words: str, clashes: list[dict] | None = None, race: bool = False):
+        super().__init__(words, 409)
+        self.clashes = clashes or []
+        self.race = race
 
 
 @dataclass(frozen=True)
@@ -46,7 +59,9 @@ class Project:
     def inside(self, name: str) -> Path:
         """The path of a name as a page gives it: relative to the folder, and in it when all links
         are followed. It need not exist. Raises Refused."""
-        if not name or "\0" in name or "\\" in name or name.startswith("/"):
+        if not name:
+            raise Refused("no file is chosen", 422)
+        if "\0" in name or "\\" in name or name.startswith("/"):
             raise Refused(f"{one_line(name, 200)!r} is no name of a file in this folder")
         if ".." in name.split("/"):
             raise Refused(f"{one_line(name, 200)} leads out of the folder")
@@ -97,19 +112,23 @@ class Project:
         """Whether an open file or folder lies in this one, wherever a link may lead now."""
         return Path(os.readlink(f"/proc/self/fd/{opened}")).is_relative_to(self.root)
 
-    def write(self, path: Path, content: bytes) -> None:
-        """Whole or not at all, and never through a link. Raises Refused, OSError."""
+    def write(self, path: Path, content: bytes, expected: bytes | None) -> None:
+        """Whole or not at all, and never through a link: over what is `expected` there, else only where
+        nothing is. Raises Changed, Refused, OSError."""
         folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
         try:
             if not self.holds(folder) or path.is_symlink():
                 raise Refused(f"{one_line(path)} leads out of the folder")
             mode = stat.S_IMODE(path.stat().st_mode) if path.exists() else None
-            self.write_in(folder, path.name, content, mode)
+            if not self.write_in(folder, path.name, content, mode, expected):
+                raise Changed(f"{self.relative(path)} has just been written by another page or program", race=True)
+        except FileNotFoundError as problem:
+            raise Changed(f"{self.relative(path)} has just been removed") from problem
         finally:
             os.close(folder)
 
     @staticmethod
-    def write_in(folder: int, name: str, content: bytes, mode: int | None) -> None:
+    def write_in(folder: int, name: str, content: bytes, mode: int | None, expected: bytes | None) -> bool:
         part = f".part_{os.urandom(6).hex()}"
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
         try:
@@ -117,13 +136,28 @@ class Project:
                 file.write(content)
                 if mode is not None:
                     os.fchmod(file.fileno(), mode)
-            os.replace(part, name, src_dir_fd=folder, dst_dir_fd=folder)
-        except BaseException:
+            return swapped(folder, part, name, expected) if expected is not None else named(folder, part, name)
+        finally:
             try:
                 os.unlink(part, dir_fd=folder)
             except OSError:
-                pass
-            raise
+                pass  # it has its name
+
+
+def named(folder: int, part: str, name: str) -> bool:
+    """Gives a part its name, if nothing has it. Raises OSError."""
+    try:
+        try:
+            os.link(part, name, src_dir_fd=folder, dst_dir_fd=folder)
+        except OSError as problem:
+            if problem.errno not in NO_LINKS:
+                raise
+            flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
+            os.close(os.open(name, flags, dir_fd=folder))
+            os.replace(part, name, src_dir_fd=folder, dst_dir_fd=folder)
+    except FileExistsError:
+        return False
+    return True
 
 
 def check_links(own: Path) -> None:
@@ -138,6 +172,8 @@ def check_links(own: Path) -> None:
 
 def plain_name(name: str) -> str:
     """A name that is safe in a path, a command and a page. Raises Refused."""
+    if not name:
+        raise Refused("give a name", 422)
     if not NAME.fullmatch(name):
         raise Refused(f"{one_line(name, 100)!r}: take letters, digits, _, - and . for a name, 80 at most", 422)
     return name

@@ -9,7 +9,8 @@ from tomlkit.exceptions import TOMLKitError
 
 from base.ending import one_line
 
-from ..server.project import Refused
+from ..cases.merge import merged
+from ..server.project import Changed, Refused
 
 PLAIN = ("title", "case", "accuracy", "method", "runs", "seed", "set")
 OF_VARY = ("name", "key", "keys", "each", "values", "names", "factors", "range", "count", "scale")
@@ -112,6 +113,30 @@ def checked(plan: dict) -> dict:
         if not all(isinstance(one, dict) for one in plan.get(key, [])):
             raise Refused(f"{key}: each must be a table", 422)
     return plan
+
+
+def with_plan_upon(before: str | None, now: str, plan: dict, over: bool) -> str:
+    """The text as it is now with changes of keys that were made upon the one before, if that is another;
+    `over` what has been changed since. Raises Changed, Refused."""
+    was, there = (plan_of(text) if text is not None else {} for text in (before, now))
+    clashes = [{"what": key, "now": one_line(there.get(key), 60), "wanted": one_line(value, 60)}
+               for key, value in plan.items() if before is not None and not over
+               and was.get(key) != there.get(key) and there.get(key) != value]
+    if clashes:
+        raise Changed(f"{clashes[0]['what']} has been changed meanwhile by another page or program: it is now "
+                      f"{clashes[0]['now']}", clashes)
+    return with_plan(now, plan)
+
+
+def text_upon(before: str | None, now: str, text: str, over: bool) -> str:
+    """Likewise of the whole text."""
+    if before is not None:
+        text = merged(*(one.replace("\r\n", "\n") for one in (before, text, now)), over)
+    try:
+        document(text)
+    except Refused as problem:
+        raise Changed(f"with what another page or program has changed meanwhile, {problem}") from problem
+    return text.replace("\r\n", "\n").replace("\n", "\r\n") if "\r\n" in now else text
 
 
 def with_plan(text: str, plan: dict) -> str:

@@ -3,10 +3,12 @@
 
 import os
 import sys
+import threading
+from collections.abc import Callable
 from pathlib import Path
 
 from fastapi import APIRouter, Body
-from fastapi.responses import FileResponse
+from fastapi.responses import FileResponse, JSONResponse
 
 from base.ending import one_line
 from base.files import is_file, parsed_toml, read_text
@@ -14,7 +16,7 @@ from base.files import is_file, parsed_toml, read_text
 from ..cases.paths import paths_inside
 from ..processes.records import LIVE
 from ..server.one_answer import answered
-from ..server.project import Project, Refused, plain_name
+from ..server.project import Changed, Project, Refused, plain_name
 from ..server.studio import Studio
 from . import files as study_files, plan as study_plan
 
@@ -160,16 +162,35 @@ def reading(router: APIRouter, studio: Studio) -> None:
 
 
 def writing(router: APIRouter, studio: Studio) -> None:
-    project = studio.project
+    project, writer = studio.project, threading.Lock()
 
-    def keep(file: Path, path: str, text: str, version: str) -> dict:
-        if version != study_plan.version_of(read_text(file)):
-            raise Refused("the file has been changed meanwhile: look at it anew", 409)
-        if len(text.encode()) > study_files.LONGEST_STUDY:
-            raise Refused("a study file has 1 MiB at most", 422)
-        project.write(file, text.encode())
+    def keep(path: str, version: str, base: str | None, over: bool, made: Callable[[str, str | None], str]) -> dict:
+        """`made(now, base)`: the new text, of the one that there is and, if that is not of this version, of
+        the one that the change was made upon. `over` what is of this version and has been shown."""
+        file = study_file(project, path)
+        with writer:
+            now = read_text(file, study_files.LONGEST_STUDY)
+            content = project.read(file, study_files.LONGEST_STUDY)
+            if content.decode("utf-8-sig", "replace") != now:
+                raise Changed("the file has just been written by another page or program")
+            changed = version != study_plan.version_of(now)
+            if changed and (base is None or over):
+                raise Changed("the file has been changed meanwhile by another page or program")
+            text = made(now, base if changed or over else None)
+            if len(text.encode()) > study_files.LONGEST_STUDY:
+                raise Refused("a study file has 1 MiB at most", 422)
+            project.write(file, text.encode(), content)
         studio.events.send("study", path=path)
-        return {"path": path, "version": study_plan.version_of(text)}
+        return {"path": path, "version": study_plan.version_of(text), "text": text,
+                "merged": changed}
+
+    def told(path: str, change: Callable[[], dict]):
+        try:
+            return change()
+        except Changed as problem:
+            now = read_text(study_file(project, path), study_files.LONGEST_STUDY)
+            return JSONResponse({"error": str(problem), "clashes": problem.clashes, "now": {
+                "text": now, "version": study_plan.version_of(now)}}, 409)
 
     @router.post("/studies")
     def new(name: str = Body(...), case: str = Body(...)) -> dict:
@@ -181,19 +202,22 @@ def writing(router: APIRouter, studio: Studio) -> None:
             raise Refused("study.toml takes the name of its folder: give another name", 422)
         file.parent.mkdir(exist_ok=True)
         seen = os.path.relpath(own_case, file.parent)
-        project.write(file, study_plan.new_text(file.name, name.replace("_", " "), seen).encode())
+        project.write(file, study_plan.new_text(file.name, name.replace("_", " "), seen).encode(), None)
         studio.events.send("study", path=project.relative(file))
         return {"path": project.relative(file)}
 
     @router.put("/study")
-    def change(path: str = Body(...), version: str = Body(...), plan: dict = Body(...)) -> dict:
-        file = study_file(project, path)
-        return keep(file, path, study_plan.with_plan(read_text(file), plan), version)
+    def change(path: str = Body(...), version: str = Body(...), plan: dict = Body(...),
+               base: str | None = Body(None), over: bool = Body(False)):
+        return told(path, lambda: keep(path, version, base, over, lambda now, before: study_plan.with_plan_upon(
+            before, now, plan, over)))
 
     @router.put("/study/text")
-    def text(path: str = Body(...), version: str = Body(...), text: str = Body(...)) -> dict:
+    def text(path: str = Body(...), version: str = Body(...), text: str = Body(...),
+             base: str | None = Body(None), over: bool = Body(False)):
         study_plan.document(text)
-        return keep(study_file(project, path), path, text, version)
+        return told(path, lambda: keep(path, version, base, over, lambda now, before: study_plan.text_upon(
+            before, now, text, over)))
 
 
 def running(router: APIRouter, studio: Studio) -> None:

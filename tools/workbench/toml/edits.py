@@ -18,24 +18,24 @@ SEGMENT = re.compile(r'"((?:[^"\\]|\\.)*)"|([^."]+)')
 MOST_ONE_BY_ONE = 50  # changed numbers of a list; one of which more change is written anew
 
 
-def edited(text: str, edits: list[dict]) -> tuple[str, list[str]]:
-    """The text after all edits, and the keys that they have made. Raises Refused."""
+def edited(text: str, edits: list[dict], refers: toml_model.Refers) -> tuple[str, list[str]]:
+    """The text after all edits, and the keys that they have made. `refers`: of model. Raises Refused."""
     lines = text.replace("\r\n", "\n")
     made = []
     for edit in edits:
         try:
-            lines, key = one_edit(lines, edit)
+            lines, key = one_edit(lines, edit, refers)
         except RecursionError as problem:
             raise Refused("lists within lists without end", 422) from problem
         made.append(key)
     return (lines.replace("\n", "\r\n") if "\r\n" in text else lines), made
 
 
-def one_edit(text: str, edit: dict) -> tuple[str, str]:
+def one_edit(text: str, edit: dict, refers: toml_model.Refers) -> tuple[str, str]:
     data = toml_of(text)
     op, path = edit.get("op"), resolved(data, edit.get("key"))
     wanted = copy.deepcopy(data)
-    steps, made = toml_model.steps_of(wanted, op, path, edit)
+    steps, made = toml_model.steps_of(wanted, op, path, edit, refers)
     for step in steps:
         toml_model.step(wanted, *step)
         text = STEPS[step[0]](text, *step[1:])

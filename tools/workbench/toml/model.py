@@ -10,6 +10,7 @@ from base.ending import one_line
 from ..server.project import Refused
 
 NAME = re.compile(r"[A-Za-z0-9_-]{1,80}")
+Refers = dict[str, list[str]]  # by pattern of the key: patterns of the tables of whose items it is a name
 MAPS = ("blanks", "fabrics", "friction")  # tables of tables, by name
 NAMED = ("ply", "tool", "boundary")  # lists of tables with a name
 
@@ -36,7 +37,7 @@ def at(data, path: tuple):
     return data
 
 
-def steps_of(data: dict, op, path: tuple, edit: dict) -> tuple[list[tuple], tuple]:
+def steps_of(data: dict, op, path: tuple, edit: dict, refers: Refers) -> tuple[list[tuple], tuple]:
     """Steps (kind, path, ...) of an edit, and the path of what it makes or leaves. Raises Refused."""
     if op == "set":
         if any(isinstance(part, str) and part.isdigit() for part in path) and at(data, path[:-1]) is None:
@@ -53,7 +54,7 @@ def steps_of(data: dict, op, path: tuple, edit: dict) -> tuple[list[tuple], tupl
     if op == "move":
         return move_steps(data, path, edit)
     if op == "rename":
-        return rename_steps(data, path, edit.get("name"))
+        return rename_steps(data, path, edit.get("name"), refers)
     raise Refused(f"{one_line(op, 30)!r} is no edit: set, remove, add, copy, move, rename", 422)
 
 
@@ -128,7 +129,7 @@ def move_steps(data: dict, path: tuple, edit: dict) -> tuple[list[tuple], tuple]
     return ([("move", path, to)] if to != path[-1] else []), (*path[:-1], to)
 
 
-def rename_steps(data: dict, path: tuple, name) -> tuple[list[tuple], tuple]:
+def rename_steps(data: dict, path: tuple, name, refers: Refers) -> tuple[list[tuple], tuple]:
     name = checked_name(name)
     if isinstance(path[-1], int):
         kind, old, new = path[-2], at(data, (*path, "name")), path
@@ -146,26 +147,51 @@ def rename_steps(data: dict, path: tuple, name) -> tuple[list[tuple], tuple]:
     if name in taken:
         raise Refused(f"the name {name} is taken", 422)
     if isinstance(old, str) and at(data, path[:-1]) is not None:
-        steps += [("set", place, name) for place in references(data, kind, old)]
+        steps += [("set", place, name) for place in references(data, path[:-1], old, refers)]
     return steps, new
 
 
-def references(data: dict, kind, name: str) -> list[tuple]:
-    """Paths of the values by which a case names one of its parts."""
-    lists = {"blanks": [("ply", "blank")], "fabrics": [("ply", "fabric")],
-             "ply": [("boundary", "ply"), ("load", "ply")], "tool": [("boundary", "carried_by")]}.get(kind, [])
-    found = [(of, number, key) for of, key in lists for number, _ in enumerate(data.get(of) or [])]
-    if kind in ("ply", "tool"):
-        pairs = at(data, ("contact", "pair"))
-        found += [("contact", "pair", k, "between", side) for k, _ in enumerate(pairs or []) for side in (0, 1)]
-    if kind == "tool":
-        for blank, table in (data.get("blanks") or {}).items():
-            found += [("blanks", blank, "zone", k, "tool") for k, _ in enumerate(at(table, ("zone",)) or [])]
-    if kind == "friction":
-        pairs = at(data, ("contact", "pair"))
-        found.append(("contact", "friction_law"))
-        found += [("contact", "pair", k, "friction_law") for k, _ in enumerate(pairs or [])]
-    return [path for path in found if at(data, path) == name]
+def references(data: dict, table: tuple, name: str, refers: Refers) -> list[tuple]:
+    """Paths of the values by which the file names an item of one of its tables or lists."""
+    found = []
+    for pattern, parts in refers.items():
+        for part in parts:
+            for own, names in (ways(pattern, part), fabric_ways(pattern, part)):
+                found += [path for path in places_of(data, own, names, table) if at(data, path) == name]
+    return list(dict.fromkeys(found))
+
+
+def ways(pattern: str, part: str) -> tuple[list[str], list[str]]:
+    """Of the key that refers, and of the table to whose items it does: their parts, with [] as "#"."""
+    return tuple(one.replace("[]", ".#").split(".") for one in (pattern, part))
+
+
+def fabric_ways(pattern: str, part: str) -> tuple[list[str], list[str]]:
+    """The same in a file of a fabric, which has what is below fabrics.NAME."""
+    head = "fabrics.NAME."
+    both = pattern.startswith(head) and part.startswith(head)
+    return ways(pattern.removeprefix(head), part.removeprefix(head)) if both else ([], [])
+
+
+def places_of(data, own: list[str], names: list[str], table: tuple) -> list[tuple]:
+    """Paths of values with this pattern that can name an item of this table: NAME stands for the same in
+    both."""
+    alike = len(names) == len(table) and all(word in ("NAME", part) for word, part in zip(names, table))
+    found: list[tuple] = [()] if alike and own else []
+    for k, word in enumerate(own):
+        found = [(*path, key) for path in found for key in keys_of(at(data, path), word)
+                 if word != "NAME" or own[:k + 1] != names[:k + 1] or key == table[k]]
+    lists = [path for path in found if isinstance(at(data, path), list)]
+    return [path for path in found if path not in lists] + [(*path, k) for path in lists for k in
+                                                            range(len(at(data, path)))]
+
+
+def keys_of(value, word: str) -> list:
+    if word == "#":
+        return list(range(len(value))) if isinstance(value, list) else []
+    if not isinstance(value, dict):
+        return []
+    return list(value) if word == "NAME" else [word] if word in value else []
 
 
 def step(data: dict, kind: str, path: tuple, *rest) -> None:

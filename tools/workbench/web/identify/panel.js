@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Identification: from measured curves to a fabric file, by plyform identify.
 
-import { ask, listen, send, upload } from "workbench/page/server.js";
+import { ask, listen, send } from "workbench/page/server.js";
 import { button, element, tell } from "workbench/page/elements.js";
+import { eachOf, uploaded } from "workbench/page/uploads.js";
 import { select, labelled } from "workbench/studies/form.js";
 import { IdentifyCurves } from "workbench/identify/curves.js";
 import { IdentifyResult } from "workbench/identify/result.js";
@@ -29,6 +30,7 @@ class Identify {
     this.start_ = labelled("Fabric to start from (all else is kept)", this.fabric);
     this.written = labelled("", this.output);
     this.replace = element("input", { id: "identify-replace", type: "checkbox" });
+    this.output.addEventListener("change", () => { this.replace.checked = false; }); // another one is another question
     this.go = button("Identify", () => this.start(), { id: "identify-go", className: "main" });
     this.stop = button("Stop", () => send(`processes/${this.number}/stop`), { id: "identify-stop", hidden: true });
     this.result = new IdentifyResult();
@@ -58,16 +60,13 @@ class Identify {
     const place = element("div", { id: "identify-drop", className: "drop" },
       element("p", { textContent: "Drop files of curves here (CSV), or choose them:" }), input);
     const take = async (files) => {
-      try {
-        for (const file of files) {
-          const { path } = await upload({ name: file.name, folder: CURVES }, file);
-          await this.fill();
-          await this.curves.add(path);
-        }
-        tell(null);
-      } catch (problem) {
-        tell(problem);
-      }
+      tell(null);
+      await eachOf(files, async (file) => {
+        const sent = await uploaded(file, CURVES);
+        if (!sent) return;
+        await this.fill();
+        await this.curves.add(sent.path);
+      }).catch(tell);
     };
     input.addEventListener("change", async () => {
       await take([...input.files]);
@@ -76,12 +75,12 @@ class Identify {
     place.addEventListener("dragover", (event) => event.preventDefault());
     place.addEventListener("drop", (event) => {
       event.preventDefault();
-      take(event.dataTransfer.files);
+      take([...event.dataTransfer.files]); // which are gone after the drop
     });
     return place;
   }
 
-  /** `rest`: empty, the number of an identification, or curve/PATH of a file to begin with. */
+  /** `rest`: empty, the number of an identification, or curve/PATHS of files to begin with, a line each. */
   async show(place, rest) {
     if (!this.test) {
       this.building = this.building || this.build(place);
@@ -89,7 +88,7 @@ class Identify {
     }
     await this.fill();
     if (/^\d+$/.test(rest)) await this.open(rest);
-    else if (rest.startsWith("curve/")) await this.curves.add(rest.slice(6));
+    else if (rest.startsWith("curve/")) for (const path of rest.slice(6).split("\n")) await this.curves.add(path);
   }
 
   async fill() {

@@ -3,10 +3,19 @@
 
 import { button, element } from "workbench/page/elements.js";
 
+/** Whether `word` was chosen after these words, or `other`. */
+export function agreed(id, title, lines, word, other = "Cancel") {
+  return new Promise((done) => {
+    const window_ = dialogue(id, title, lines.map((line) => ({ kind: "note", title: line })), word,
+      () => done(true), other);
+    window_.addEventListener("close", () => done(false)); // after an answer it is answered already
+  });
+}
+
 /** Fields { name, title, kind: text|number|select|checkbox, value, choices, unit, note }; `done(values)`
  * when it is answered, which may take time; it is shown what goes wrong; null if there is nothing to ask.
  * Returns the dialogue. */
-export function dialogue(id, title, fields, word, done) {
+export function dialogue(id, title, fields, word, done, other = "Cancel") {
   const inputs = new Map();
   const wrong = element("p", { className: "words", role: "alert" });
   const window_ = element("dialog", { id, "aria-label": title }, element("h2", { textContent: title }),
@@ -24,7 +33,7 @@ export function dialogue(id, title, fields, word, done) {
     }
   }, { className: "main", id: `${id}-go` });
   window_.append(wrong, element("p", { className: "answers" }, done
-    ? button("Cancel", close, { id: `${id}-cancel` }) : null, go));
+    ? button(other, close, { id: `${id}-cancel` }) : null, go));
   window_.addEventListener("keydown", (event) => {
     if (event.key === "Enter" && event.target.tagName === "INPUT") { event.preventDefault(); go.click(); }
   });

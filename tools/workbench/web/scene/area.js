@@ -84,11 +84,12 @@ export class SceneArea {
     }
     if (scene.version && file.version && scene.version !== file.version) return null;
     const bodies = [...(scene.plies || []), ...(scene.tools || [])].filter((one) => one.x && one.x.length);
-    if (!bodies.length && this.scene && !fit) {
+    if (!bodies.length && !fit) {
       this.old((scene.missing || []).join("; ") || "nothing of this can be drawn");
       return null;
     }
     this.scene = scene;
+    this.room.classList.remove("nothing");
     this.view.show(scene, fit);
     this.callouts = calloutsOf(scene);
     this.view.callOut(this.callouts);
@@ -98,6 +99,14 @@ export class SceneArea {
     if (missing.length) notes.push(`not drawn: ${missing.join("; ")}`);
     this.say(notes.join("; "));
     return scene;
+  }
+
+  /** Nothing of another case stays. */
+  clear() {
+    this.scene = null;
+    this.callouts = [];
+    this.room.classList.add("nothing");
+    this.say("");
   }
 
   say(words) {

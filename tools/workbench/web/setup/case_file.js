@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One TOML file as the server has it: changed by edits or as a whole, one after the other, each upon
-// the version that the last one made.
+// One TOML file as the server has it: changed by edits or as a whole, one after the other. Each change goes
+// with the text that it was made upon: where somebody else has changed the same meanwhile, the page asks.
 
 import { ask, send } from "workbench/page/server.js";
 import { tell } from "workbench/page/elements.js";
+import { madeUpon } from "workbench/page/upon.js";
 
 export class CaseFile {
   constructor(path) {
     this.path = path;
     this.watchers = [];
     this.busy = Promise.resolve();
+    this.foreign = 0; // changes of others
   }
 
   /** `act(file, by)` after each change; by: "edit", "text", "back", "other". */
@@ -18,7 +20,19 @@ export class CaseFile {
   }
 
   load(by = "other") {
-    return this.after(async () => this.take(await ask("case", { path: this.path }), by));
+    return this.after(() => this.fetched(by));
+  }
+
+  async fetched(by) {
+    const { gone } = this;
+    try {
+      this.take(await ask("case", { path: this.path }), by);
+      this.gone = false;
+      if (gone) tell(null); // that it was missing
+    } catch (problem) {
+      this.gone = problem.code === 404;
+      throw problem;
+    }
   }
 
   /** Does one thing after the other. */
@@ -28,49 +42,78 @@ export class CaseFile {
     return done;
   }
 
+  /** What a change is made upon: the text as it is shown now. */
+  shown() {
+    return { text: this.text, version: this.version, foreign: this.foreign };
+  }
+
   take(answer, by) {
     const { text, version, tree, error } = answer;
+    const others = answer.before !== undefined || (by === "other" && version !== this.version);
+    if (others && this.version !== undefined) this.foreign += 1;
+    const before = answer.before === undefined ? { text: this.text, version: this.version }
+      : { text: answer.before, version: null };
+    this.last = version === this.version ? null : { file: this, before, after: { text, version } };
     Object.assign(this, { text, version, tree: tree || this.tree || {}, error: error || null,
       canUndo: answer.can_undo, canRedo: answer.can_redo });
     this.watchers.forEach((act) => act(this, by));
   }
 
-  change(by, ask_) {
+  /** `make({ version, base, over })` asks the server for a change that was made upon `base`. */
+  change(by, make, upon = this.shown()) {
     return this.after(async () => {
+      const base = upon.foreign === this.foreign ? this.shown() : upon; // changes of this page go on
       try {
-        this.take(await ask_(this.version), by);
+        const answer = await madeUpon(base, make, { taken: (now) => this.take(now, "other"), asks: by !== "text" });
+        if (!answer) return; // what is there was chosen
+        this.take(answer, by);
         tell(null);
       } catch (problem) {
-        if (problem.code === 409) this.take(await ask("case", { path: this.path }), "other");
-        else if (by === "edit") this.watchers.forEach((act) => act(this, "refused"));
+        if (by === "edit" && problem.code !== 409) this.watchers.forEach((act) => act(this, "refused"));
         throw problem;
       }
     });
   }
 
-  /** Edits { op, key, ... } of the server's list. */
-  edit(edits) {
-    return this.change("edit", (version) => send("case", { version, edits },
-      { query: { path: this.path }, method: "PATCH" }));
+  /** Edits { op, key, ... } of the server's list, made upon what was shown then. */
+  edit(edits, upon) {
+    return this.change("edit", (wish) => send("case", { ...wish, edits },
+      { query: { path: this.path }, method: "PATCH" }), upon);
   }
 
-  put(text) {
-    return this.change("text", (version) => send("case", { version, text },
-      { query: { path: this.path }, method: "PUT" }));
+  /** The whole text, made from that of `upon`; `over` what others have changed in the same lines. */
+  put(text, upon, over = false) {
+    const shown = this.version;
+    return this.change("text", (wish) => send("case", { ...wish, text,
+      ...(over ? { version: shown, base: upon.text, over } : {}) },
+    { query: { path: this.path }, method: "PUT" }), upon);
   }
 
-  undo() {
-    return this.change("back", () => send("case/undo", {}, { query: { path: this.path } }));
+  /** To the text before or after this one in the file's history, whoever has made it. */
+  step(way, wanted) {
+    const upon = this.shown();
+    return this.change("back", ({ version }) => send(`case/${way}`, { version, wanted },
+      { query: { path: this.path } }), upon);
   }
 
-  redo() {
-    return this.change("back", () => send("case/redo", {}, { query: { path: this.path } }));
+  /** Takes back, or does again, one change { before, after } of this page; what others have done since stays. */
+  async back(way, { before, after }) {
+    const [here, there] = way === "undo" ? [after, before] : [before, after];
+    if (this.version === here.version && there.version) {
+      try {
+        await this.step(way, there.version);
+        return;
+      } catch (problem) {
+        if (problem.code !== 409) throw problem;
+      }
+    }
+    await this.change("back", (wish) => send("case", { ...wish, text: there.text },
+      { query: { path: this.path }, method: "PUT" }), here);
   }
 
-  /** Another program or page has changed the file. */
+  /** Another program or page has changed the file, or taken it away. */
   heard(version) {
-    return this.after(() => (version === this.version ? null
-      : ask("case", { path: this.path }).then((answer) => this.take(answer, "other"))));
+    return this.after(() => (version === this.version && !this.gone ? null : this.fetched("other")));
   }
 }
 

@@ -37,10 +37,25 @@ export class Form {
     this.help = element("p", { className: "help", id: "help", "aria-live": "polite", textContent:
       "Point at a key to read what it means." });
     place.append(this.fields, this.help);
+    this.typed = new WeakMap(); // of fields with what was typed before they were drawn anew: upon which texts
+    this.fields.addEventListener("change", (event) => this.leaves(event), true);
+    this.fields.addEventListener("focusout", ({ target }) => this.typed.has(target) && !this.drawing &&
+      document.activeElement !== target && // as when another window comes to the front
+      target.dispatchEvent(new Event("change", { bubbles: true })));
     this.fields.addEventListener("focusin", (event) => this.helpOf(event.target));
     this.fields.addEventListener("pointerover", (event) => {
       if (!this.fields.contains(document.activeElement)) this.helpOf(event.target);
     });
+  }
+
+  /** What is typed is a change of what was shown when the typing began. */
+  leaves(event) {
+    if (this.drawing) event.stopImmediatePropagation();
+    else {
+      this.changing = this.typed.get(event.target);
+      this.typed.delete(event.target);
+      setTimeout(() => { this.changing = null; });
+    }
   }
 
   helpOf(target) {
@@ -61,17 +76,20 @@ export class Form {
     const main = { file: this.work.main, prefix: "", key: "", pattern: "", table: this.work.main.tree };
     const parts = this.work.ofFabric ? [this.fabricNote(main.file), ...this.tableFields({ ...main, pattern: FABRIC })]
       : item === "case" ? this.caseFields(main) : this.itemFields(main, item);
+    this.drawing = true; // a field that goes with what is typed in it is left, and not done
     this.fields.replaceChildren(...parts.filter(Boolean));
+    this.drawing = false;
     this.fields.inert = Boolean(this.work.main.error);
     this.showWrong();
     this.giveFocus(kept);
+    this.upon = this.work.shown();
   }
 
   keepFocus() {
     const at = document.activeElement;
     if (!at || !this.fields.contains(at) || !at.dataset.key) return null;
     return { key: at.dataset.key, part: at.dataset.part, value: at.value, shown: at.defaultValue,
-      top: this.fields.scrollTop };
+      upon: this.typed.get(at) || this.upon, top: this.fields.scrollTop };
   }
 
   giveFocus(kept) {
@@ -79,7 +97,10 @@ export class Form {
     const at = [...this.fields.querySelectorAll("[data-key]")].find((one) => one.dataset.key === kept.key &&
       one.dataset.part === kept.part);
     if (!at) return;
-    if (at.type === "text" && kept.value !== kept.shown) at.value = kept.value;
+    if (at.type === "text" && kept.value !== kept.shown) {
+      at.value = kept.value;
+      this.typed.set(at, kept.upon);
+    }
     at.focus({ preventScroll: true });
     this.fields.scrollTop = kept.top;
   }
@@ -235,6 +256,9 @@ export class Form {
   put(at, row, value) {
     const key = this.localKey(at, row);
     const name = lastPart(row.key);
+    if (name === "name" && row.kind === "name" && value !== null && at.table.name !== undefined) { // others name it
+      return this.send(at.file, [{ op: "rename", key: at.key, name: value }]);
+    }
     const edits = [value === null ? { op: "remove", key } : { op: "set", key, value }];
     const [before, after] = [at.table, { ...at.table, [name]: value === null ? undefined : value }];
     for (const other of this.work.keys.below(at.pattern)) {
@@ -247,14 +271,14 @@ export class Form {
   }
 
   send(file, edits) {
-    return file.edit(edits).catch(tell);
+    return file.edit(edits, this.changing ? this.changing.get(file) : undefined).catch(tell);
   }
 
   control(at, row) {
     const key = this.keyOf(at, row);
     const value = at.table[lastPart(row.key)];
     const changed = (next) => this.put(at, row, next);
-    const names = namesFor(this.work, row.key, at);
+    const names = namesFor(this.work, row, at);
     if (NUMBERS.includes(row.kind)) return this.numberControl(row, key, value, changed);
     if (row.kind === "choice") return selectInput(row, key, value, row.choices, changed);
     if (row.kind === "boolean") return booleanInput(row, key, value, changed);

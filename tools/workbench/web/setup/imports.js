@@ -5,7 +5,8 @@
 import { dialogue } from "workbench/page/dialogue.js";
 import { numberOf } from "workbench/setup/inputs.js";
 import { freeFabric } from "workbench/setup/case_dialogues.js";
-import { ask, listen, send, upload } from "workbench/page/server.js";
+import { ask, listen, send } from "workbench/page/server.js";
+import { eachOf, uploaded } from "workbench/page/uploads.js";
 
 const UNITS = [["mm", "mm"], ["cm", "cm"], ["m", "m"], ["inch", "inch"]];
 
@@ -17,11 +18,28 @@ function positive(text, word) {
   return value;
 }
 
+function directionOf(text) {
+  const values = text.trim().split(/[\s;]+/).map(numberOf);
+  if (values.length !== 3 || values.some(Number.isNaN) || !values.some(Boolean)) {
+    throw new Error(`Direction of pressing: ${text}: three numbers that are not all 0`);
+  }
+  return values;
+}
+
 function angleOf(text) {
   const value = numberOf(text || "0");
   if (!(value >= 0 && value <= 80)) throw new Error(`Plies sheared by: ${text}: 0 to 80 degrees`);
   return value;
 }
+
+const ON_PAGE = [[/--on (\w+)/g, '"The surface is that of" the $1'], [/--on\b/g, '"The surface is that of"'],
+  [/--solid part\b/g, '"A solid is" the formed part'], [/--solid tool\b/g, '"A solid is" the body of that tool'],
+  [/--offset\b/g, '"Distance"'], [/--(stack|run)\b/g, '"Make"'], [/--shear\b/g, '"Plies sheared by"'],
+  [/--deflection\b/g, '"Deflection"'], [/--direction\b/g, '"Direction of pressing"'],
+  [/ or more --minutes\b/g, ""]];
+
+/** What mesh_tool.py says, with its options as the page calls them. */
+const asOnPage = (words) => ON_PAGE.reduce((text, [option, word]) => text.replace(option, word), words);
 
 /** Until a process has ended: its record, having told how far it is. Its end may come before the
  * answer to the request that began it. */
@@ -39,7 +57,7 @@ async function ended(record, tell) {
   stop();
   if (last.state === "done") return last;
   const { log } = await ask(`processes/${record.id}`);
-  throw new Error((log || "").trim().split("\n").pop() || `it has ${last.state}`);
+  throw new Error(asOnPage((log || "").trim().split("\n").pop()) || `it has ${last.state}`);
 }
 
 /** Runs what api/import begins: the files written, and what was said of them. */
@@ -56,7 +74,7 @@ const PLACED = /stack\.bottom = (\S+); punch: position = (\[.*?\]), direction = 
 /** Where die and punch have to be so that they are closed at the end of the stroke, as mesh_tool.py tells it. */
 function placeOf(said) {
   const [, bottom, position, direction, stroke] = said.join("\n").match(PLACED) || [];
-  return bottom === undefined ? { bottom: 0, punch: {} } : { bottom: Number(bottom), punch: {
+  return bottom === undefined ? { bottom: null, punch: {} } : { bottom: Number(bottom), punch: {
     position: JSON.parse(position), direction: JSON.parse(direction), stroke: Number(stroke) } };
 }
 
@@ -82,34 +100,22 @@ export class Imports {
 
   async take(files) {
     if (!this.work.main || this.work.ofFabric) throw new Error("Open or make a case first, into which the file can go");
-    for (const file of files) {
-      await this.send(file, {}, async ({ path, kind }) => {
-        await this.work.refreshFolder();
-        await this.ask(kind, path);
-      });
-    }
-  }
-
-  /** Uploads a file; one that is there already is replaced when that is said. */
-  async send(file, more, done) {
-    const name = file.name.replace(/[^A-Za-z0-9_.-]/g, "_");
-    let sent;
-    try {
-      sent = await upload({ name, folder: folderOf(this.work.main.path), ...more }, file);
-    } catch (problem) {
-      if (problem.code !== 409 || more.replace) throw problem;
-      dialogue("replace", `${name} is there already`, [{ kind: "note", title: problem.message }], "Replace it",
-        () => this.send(file, { replace: 1 }, done));
-      return;
-    }
-    await done(sent);
+    const curves = [];
+    await eachOf(files, async (file) => {
+      const sent = await uploaded(file, folderOf(this.work.main.path));
+      if (!sent) return;
+      await this.work.refreshFolder();
+      if (sent.kind === "curve") curves.push(sent.path);
+      else await this.ask(sent.kind, sent.path);
+    }).finally(() => {
+      if (curves.length) location.hash = `#identify/curve/${encodeURI(curves.join("\n"))}`;
+    });
   }
 
   ask(kind, path) {
     const name = path.split("/").pop();
     const acts = { part: () => this.askPart(path, name), mesh: () => this.askMesh(path, name),
-      drawing: () => this.askDrawing(path, name), toml: () => this.askFabric(path, name),
-      curve: () => { location.hash = `#identify/curve/${path}`; } };
+      drawing: () => this.askDrawing(path, name), toml: () => this.askFabric(path, name) };
     return acts[kind]();
   }
 
@@ -130,18 +136,24 @@ export class Imports {
         ["punch", "the punch"]] },
       { name: "solid", title: "A solid is", kind: "select", choices: [["part", "the formed part, with its thickness"],
         ["tool", "the body of that tool"]], note: "an open shell is taken as it is" },
+      { name: "direction", title: "Direction of pressing", kind: "text", value: "0 0 -1",
+        note: "x y z, from the punch to the die" },
+      { name: "tools", title: "Tools that there are", kind: "select", choices: [["go", "go"], ["stay", "stay beside"]],
+        note: (this.work.main.tree.tool || []).map((one) => one.name).join(", ") },
       { name: "deflection", title: "Deflection", kind: "number", unit: "mm", value: 0.05,
         note: "how far triangles may lie from the shape, at most" },
       { name: "replace", title: "Replace", kind: "checkbox", note: "meshes of an earlier time" },
-    ], "Make tools", async ({ make, offset, shear, run, on, solid, deflection, replace }, tell) => {
+    ], "Make tools", async ({ make, offset, shear, run, on, solid, direction, tools, deflection, replace }, tell) => {
       const body = { path, case: this.work.main.path, as: "tool", deflection: positive(deflection, "Deflection"),
         replace };
       if (make === "offset") Object.assign(body, { offset: positive(offset, "Distance"), on, solid });
       if (make === "stack") Object.assign(body, { stack: true, shear: angleOf(shear), on, solid });
       if (make === "run") Object.assign(body, { run, on, solid });
+      const way = directionOf(direction);
+      if (make !== "tool") body.direction = way;
       tell("begun");
       const { outputs, said } = await made(body, tell);
-      await this.addMeshes(outputs, placeOf(said));
+      await this.addMeshes(outputs, placeOf(said), way, make !== "tool" && tools === "go");
       dialogue("import-told", `Tools from ${name}`, said.map((title) => ({ kind: "note", title })), "Close", null);
     });
     const follow = () => {
@@ -150,7 +162,9 @@ export class Imports {
         window_.querySelector(`#import-part-${one}`).closest(".asked").parentElement.hidden = make !== (one ===
           "shear" ? "stack" : one);
       }
-      for (const one of ["on", "solid"]) window_.querySelector(`#import-part-${one}`).disabled = make === "tool";
+      for (const one of ["on", "solid", "direction", "tools"]) {
+        window_.querySelector(`#import-part-${one}`).disabled = make === "tool";
+      }
     };
     window_.querySelector("#import-part-make").addEventListener("change", follow);
     follow();
@@ -177,9 +191,14 @@ export class Imports {
     show().catch(this.work.tell);
   }
 
-  askDrawing(path, name) {
+  /** The unit that the drawing says is shown, and respected; another one is written into the case. */
+  async askDrawing(path, name) {
+    const { unit: said } = await send("import", { path, as: "blank", case: this.work.main.path });
+    const others = UNITS.filter(([unit]) => unit !== said);
     dialogue("import-drawing", `Blank from ${name}`, [
-      { name: "unit", title: "Unit of the drawing", kind: "select", choices: UNITS },
+      { name: "unit", title: "Unit of the drawing", kind: "select",
+        choices: said ? [[said, `${said}, as the drawing says`], ...others] : UNITS,
+        note: said ? "" : "the drawing says none" },
       { name: "element_size", title: "Element size", kind: "number", unit: "mm", value: 10 },
     ], "Add the blank", async ({ unit, element_size: size }) => this.add(await send("import",
       { path, as: "blank", unit,
@@ -210,20 +229,39 @@ export class Imports {
     }
   }
 
-  /** Adds meshes that were made; a punch is driven down from where it clears the stack. */
-  async addMeshes(paths, { bottom, punch }) {
+  /** Adds meshes that were made; a punch is driven from where it clears the stack. A tool of the same file stays
+   * what it is; with `alone` the new ones take the place of those of their names, and of all others. */
+  async addMeshes(paths, { bottom, punch }, direction, alone) {
     await this.work.refreshFolder();
-    for (const path of paths) {
-      const stem = path.split("/").pop().replace(/\.\w+$/, "");
-      const [, word] = stem.match(/_(die|punch)$/) || [];
-      const wish = await send("import", { path, as: "tool", unit: "mm", case: this.work.main.path });
-      const moves = word === "punch" ? { motion: "driven", direction: [0, 0, -1], stroke: 10, ...punch } : {};
-      await this.add({ ...wish, name: word || wish.name, value: { ...wish.value, ...moves } });
-    }
     const { main } = this.work;
-    if (((main.tree.stack || {}).bottom || 0) !== bottom) {
-      await main.edit([{ op: "set", key: "stack.bottom", value: bottom }]);
+    const before = main.tree.tool || [];
+    const [edits, kept] = [[], new Set()];
+    let last;
+    for (const path of paths) {
+      const [, word] = path.match(/_(die|punch)\.\w+$/) || [];
+      const wish = await send("import", { path, as: "tool", unit: "mm", case: main.path });
+      const moves = word === "punch" ? { motion: "driven", direction, stroke: 10, ...punch } : {};
+      const value = { ...wish.value, ...moves };
+      const name = word || wish.name;
+      const there = before.find((one) => one.file === value.file) || (alone && before.find((one) => one.name === name));
+      if (there && there.file === value.file) {
+        edits.push(...Object.entries(value).map(([key, part]) => ({ op: "set", key: `tool.${there.name}.${key}`,
+          value: part })));
+      } else if (there) {
+        edits.push({ op: "set", key: `tool.${there.name}`, value: { name, ...value } });
+      } else {
+        edits.push({ op: "add", key: "tool", value: { name: freeWord(alone ? [] : before.map((one) => one.name), name),
+          ...value } });
+      }
+      if (there) kept.add(there.name);
+      last = value.file;
     }
+    const gone = alone ? before.filter(({ name }) => !kept.has(name)) : [];
+    if (bottom !== null && ((main.tree.stack || {}).bottom || 0) !== bottom) {
+      edits.push({ op: "set", key: "stack.bottom", value: bottom });
+    }
+    await main.edit([...gone.map(({ name }) => ({ op: "remove", key: `tool.${name}` })), ...edits]);
+    this.work.choose(`tool.${Math.max(0, (main.tree.tool || []).findIndex(({ file }) => file === last))}`);
   }
 }
 

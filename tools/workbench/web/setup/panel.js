@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The set-up of a case: its outline and forms, its scene, its text.
 
+import { agreed } from "workbench/page/dialogue.js";
 import { addFabric, askRun, newCase } from "workbench/setup/case_dialogues.js";
 import { CaseFile, Latest } from "workbench/setup/case_file.js";
 import { button, element, tell } from "workbench/page/elements.js";
@@ -8,7 +9,7 @@ import { Form } from "workbench/setup/form.js";
 import { Imports } from "workbench/setup/imports.js";
 import { Keys, itemOf } from "workbench/setup/keys_table.js";
 import { Outline } from "workbench/setup/outline.js";
-import { Problems, faultsAt, faultsBelow, faultsOf } from "workbench/setup/problems.js";
+import { Problems, faultsAt, faultsBelow, faultsOf, faultsStill } from "workbench/setup/problems.js";
 import { inFolder } from "workbench/setup/references.js";
 import { SceneArea } from "workbench/scene/area.js";
 import { ask, listen } from "workbench/page/server.js";
@@ -24,6 +25,9 @@ function firstSteps() {
     ["Identification", "a fabric's stiffnesses from measured curves"]].map(([name, words]) =>
     element("li", {}, element("b", { textContent: name }), `: ${words}`)));
 }
+
+/** A change as if it had been made the other way. */
+const turned = (change) => change && { ...change, before: change.after, after: change.before };
 
 class Setup {
   constructor(place) {
@@ -91,7 +95,8 @@ class Setup {
     const setup = this;
     return {
       get keys() { return setup.keys; }, get main() { return setup.main; }, get folder() { return setup.folder; },
-      get scene() { return setup.scene; }, get ofFabric() { return setup.ofFabric; }, tell,
+      get scene() { return setup.scene; }, shown: () => new Map([setup.main, ...setup.files.values()].map((file) =>
+        [file, file.shown()])), get ofFabric() { return setup.ofFabric; }, tell,
       choose: (key) => setup.choose(key), fileOf: (path) => setup.fileOf(path),
       wrongAt: (key) => faultsAt(setup.faults, key),
       wrongBelow: (item) => faultsBelow(setup.faults, item, (key) => itemOf(setup.keys, key)),
@@ -128,7 +133,9 @@ class Setup {
     this.empty.hidden = Boolean(wanted);
     this.body.hidden = this.barPlace.hidden = !wanted;
     if (!wanted || (this.main && this.main.path === wanted)) return;
-    Object.assign(this, { faults: [], chosen: "case", scene: null, done: [], undone: [] });
+    Object.assign(this, { faults: [], answer: null, seen: {}, chosen: "case", scene: null, done: [], undone: [] });
+    this.area.clear();
+    this.problems.wait([]);
     this.files.clear();
     this.main = new CaseFile(wanted);
     this.ofFabric = (this.folder.fabrics || []).some((one) => one.path === wanted);
@@ -136,7 +143,9 @@ class Setup {
     this.listCases();
     this.main.watch((file, by) => file === this.main && this.changed(by, file));
     this.fresh = true;
+    this.body.classList.add("unread");
     await this.main.load();
+    this.body.classList.remove("unread");
     this.editor.show(this.main);
   }
 
@@ -154,13 +163,30 @@ class Setup {
   }
 
   /** Takes back, or does again, the last change of this page, in the case or in a fabric's file; before
-   * these, changes of the case by others. */
+   * these, changes of the case at other times. */
   async back(way) {
     const [from, to] = way === "undo" ? [this.done, this.undone] : [this.undone, this.done];
-    const file = from.pop() || this.main;
-    await file[way]();
-    to.push(file);
-    this.showBack();
+    const change = from.pop();
+    try {
+      if (change) await change.file.back(way, change);
+      else if (!await this.stepped(way)) return;
+      to.push(change || (way === "undo" ? turned(this.main.last) : this.main.last));
+    } catch (problem) {
+      if (change) from.push(change);
+      throw problem;
+    } finally {
+      this.showBack();
+    }
+  }
+
+  /** By the history of the file: what others have changed while this page was open is asked about. */
+  async stepped(way) {
+    if (this.main.foreign && !await agreed("step", way === "undo" ? "Undo" : "Redo", ["The last change of this file " +
+      "was not made on this page, but by another page or program."], way === "undo" ? "Take it back" : "Do it again")) {
+      return false;
+    }
+    await this.main.step(way);
+    return Boolean(this.main.last);
   }
 
   showBack() {
@@ -170,17 +196,27 @@ class Setup {
   }
 
   changed(by, file) {
-    if (by === "edit" || by === "text") {
-      this.done.push(file);
+    if ((by === "edit" || by === "text") && file.last) {
+      this.done.push(file.last);
       this.undone = [];
     }
     this.showBack();
     if (!this.exists(this.chosen)) this.chosen = "case";
+    if (by !== "refused" && this.main.version !== this.seen.version) this.forget();
     if (!this.ofFabric) this.outline.show(this.chosen);
     this.form.show(this.chosen);
     if (by === "refused" || this.ofFabric) return;
-    this.problems.wait();
     this.drawn.ask();
+  }
+
+  /** Of what was said of the text before, what the change has made untrue. */
+  forget() {
+    this.faults = faultsStill(this.faults, this.seen.tree, this.main.tree);
+    this.answer = null;
+    this.seen = { version: this.main.version, tree: this.main.tree };
+    this.problems.wait(this.faults);
+    this.markLines();
+    this.area.blame(this.faults, this.chosen);
   }
 
   exists(item) {
@@ -211,7 +247,13 @@ class Setup {
   async check() {
     const { main } = this;
     if (main.error || main.version === undefined) return; // or not loaded yet
-    const answer = await ask("check", { path: main.path, version: main.version });
+    let answer;
+    try {
+      answer = await ask("check", { path: main.path, version: main.version });
+    } catch (problem) {
+      if (problem.code !== 409 && main === this.main) this.problems.fail(problem.message);
+      throw problem;
+    }
     if (main !== this.main || answer.version !== main.version) return;
     this.answer = answer;
     this.faults = faultsOf(answer);

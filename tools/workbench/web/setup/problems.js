@@ -2,6 +2,7 @@
 // What check says of a case: mistakes and warnings by their keys, and their list.
 
 import { element } from "workbench/page/elements.js";
+import { valueAt } from "workbench/setup/keys_table.js";
 
 const PLACE = /^(.*?):(\d+):\d+: (?:warning: |error: )?(.*)$/s; // file, line, words
 
@@ -19,6 +20,10 @@ export function faultsOf(answer) {
     key: one.key || "" }));
   return [...of(answer.mistakes, false), ...of(answer.warnings, true)];
 }
+
+/** Faults but those at keys that have another value since. */
+export const faultsStill = (faults, before, now) => faults.filter(({ key }) => !key ||
+  JSON.stringify(valueAt(before, key)) === JSON.stringify(valueAt(now, key)));
 
 /** Without "KEY = ", where the key stands beside it. */
 export const withoutKey = ({ key, text }) => (key && text.startsWith(`${key} = `) ? text.slice(key.length + 3) : text);
@@ -58,9 +63,20 @@ export class Problems {
     this.point = point;
   }
 
-  wait() {
-    if (!this.state.textContent) this.state.textContent = "checking…";
+  /** Until the file as it is now has been checked; `faults`: what still can be so. */
+  wait(faults) {
+    this.state.textContent = "checking…";
+    this.state.title = "";
     this.state.classList.add("waiting");
+    this.state.classList.remove("wrong");
+    this.list.replaceChildren(...faults.map((one) => this.line(one)));
+  }
+
+  /** It could not be checked. */
+  fail(words) {
+    this.wait([]);
+    this.state.classList.add("wrong");
+    this.state.textContent = `not checked: ${words}`;
   }
 
   show(answer, faults) {

@@ -5,27 +5,23 @@ const FILES = { file: ["mesh", "stl"], outline_file: ["drawing"], fabric: ["toml
 
 const names = (list) => (Array.isArray(list) ? list : []).map((one) => one.name).filter(Boolean);
 
-/** Names that the key of a pattern can be chosen from; null if it names nothing. */
-export function namesFor(work, pattern, at) {
-  const { tree } = work.main;
-  const of = {
-    "ply[].fabric": () => Object.keys(tree.fabrics || {}),
-    "ply[].blank": () => Object.keys(tree.blanks || {}),
-    "boundary[].ply": () => names(tree.ply),
-    "load[].ply": () => names(tree.ply),
-    "load[].between": () => names(tree.ply),
-    "boundary[].carried_by": () => names((tree.tool || []).filter((tool) => tool.motion === "driven")),
-    "contact.pair[].between": () => ["plies", "tools", ...names(tree.ply), ...names(tree.tool)],
-    "fabrics.NAME.crossing[].families": () => names(familiesTable(at)),
-  }[pattern];
-  return of ? of() : null;
+const namesOf = (part) => (Array.isArray(part) ? names(part) : Object.keys(part || {}));
+
+/** Names that a key can be chosen from, by what its row says that it refers to; null if it names nothing. */
+export function namesFor(work, row, at) {
+  const refers = row.refers || [];
+  if (!refers.length) return null;
+  const found = refers.flatMap((pattern) => namesOf(partOf(work, pattern, at)));
+  return [...(row.choices || []), ...found];
 }
 
-function familiesTable(at) {
-  const tree = at.file.tree || {};
-  if (at.prefix) return tree.family;
-  const [, name] = at.key.split(".");
-  return ((tree.fabrics || {})[name] || {}).family;
+/** The list or table of a pattern. NAME is that of the key which refers; a fabric's file has what is below. */
+function partOf(work, pattern, at) {
+  const words = pattern.split(".");
+  const ofFile = words[0] === "fabrics" && words.length > 2 && (at.prefix || work.ofFabric);
+  const way = at.key.split(".");
+  return (ofFile ? words.slice(2) : words.map((word, k) => (word === "NAME" ? way[k] : word)))
+    .reduce((part, word) => (part || {})[word], ofFile ? at.file.tree : work.main.tree);
 }
 
 /** A path of the folder as a file of the case names it. */

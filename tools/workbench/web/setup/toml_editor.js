@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The text of a file beside its form. What is typed is saved 0.4 s later if it is TOML.
+// The text of a file beside its form. What is typed is saved 0.4 s later if it is TOML, as a change of the
+// text that was shown when the typing began; until then it is kept, whatever is shown meanwhile.
 
-import { element, tell } from "workbench/page/elements.js";
+import { button, element, tell } from "workbench/page/elements.js";
 
 const WAIT = 400; // ms
 
@@ -33,7 +34,9 @@ export class TomlEditor {
       textContent: "Take back the text",
       hidden: true });
     this.revert.addEventListener("click", () => this.fill());
-    place.append(element("div", { className: "bar" }, this.name, this.note, this.revert));
+    this.keep = button("Keep this text", () => this.save(true), { id: "toml-keep", className: "small", hidden: true,
+      title: "in these lines in the place of what another page or program has written" });
+    place.append(element("div", { className: "bar" }, this.name, this.note, this.revert, this.keep));
     this.room = element("div", { className: "toml", id: "toml" });
     place.append(this.room);
     this.mirror = window.CodeMirror(this.room, { mode: "toml", lineNumbers: true,
@@ -42,28 +45,40 @@ export class TomlEditor {
     this.mirror.getInputField().setAttribute("aria-label", "TOML of the file");
     this.mirror.on("change", (_, change) => change.origin !== "setValue" && this.typed());
     this.marked = [];
+    this.drafts = new Map(); // what has been typed in files that are not shown, and upon which text, by path
+    this.followed = new WeakSet();
+    window.addEventListener("beforeunload", (event) => (this.dirty || this.drafts.size) && event.preventDefault());
   }
 
   /** Shows a CaseFile, and follows it. */
   show(file) {
     if (this.file === file) return;
+    if (this.dirty) this.drafts.set(this.file.path, { text: this.mirror.getValue(), upon: this.upon });
     this.save();
     this.file = file;
-    file.watch((changed, by) => changed === this.file && this.changed(by));
+    if (!this.followed.has(file)) file.watch((changed, by) => changed === this.file && this.changed(by));
+    this.followed.add(file);
+    const draft = this.drafts.get(file.path);
+    this.drafts.delete(file.path);
     this.fill();
+    if (draft && draft.text !== file.text) {
+      this.mirror.setValue(draft.text);
+      Object.assign(this, { dirty: true, upon: draft.upon });
+      this.save();
+    }
     this.mirror.clearHistory();
   }
 
   changed(by) {
     if (by === "refused") return;
-    if (this.dirty && by === "other") return; // what is being typed is compared when it is saved
-    if (by === "text" && this.mirror.getValue() === this.file.text) this.settled();
-    else if (!this.dirty) this.fill();
+    if (!this.dirty) this.fill();
+    else if (by !== "text") this.note.textContent = "the file has been changed beside this text, which is not saved";
   }
 
   fill() {
     if (!this.file || this.file.text === undefined) return;
     this.dirty = false;
+    this.upon = { text: this.file.text, version: this.file.version };
     this.name.textContent = this.file.path;
     const { mirror } = this;
     if (mirror.getValue() !== this.file.text) {
@@ -77,7 +92,7 @@ export class TomlEditor {
 
   settled() {
     this.dirty = false;
-    this.revert.hidden = true;
+    this.revert.hidden = this.keep.hidden = true;
     this.problem(this.file.error);
   }
 
@@ -88,22 +103,29 @@ export class TomlEditor {
     this.timer = setTimeout(() => this.save(), WAIT);
   }
 
-  async save() {
+  /** `over`: in the place of what others have written in the same lines. */
+  async save(over = false) {
     clearTimeout(this.timer);
     if (!this.dirty || !this.file) return;
     const text = this.mirror.getValue();
-    const { file } = this;
+    const { file, upon } = this;
     try {
-      await file.put(text);
-      if (file === this.file && this.mirror.getValue() === text) this.settled();
+      await file.put(text, upon, over);
+      this.drafts.delete(file.path);
+      if (file === this.file && this.mirror.getValue() === text) this.fill();
+      else if (file === this.file) this.upon = { text, version: file.text === text ? file.version : "" };
     } catch (problem) {
-      if (problem.code === 422) {
-        this.problem(problem.said && problem.said.line ? problem.said : { line: 0, words: problem.message });
-        this.revert.hidden = false;
-      } else {
-        tell(problem);
-      }
+      if (file === this.file) this.refused(problem);
+      else tell(new Error(`${file.path}: what was typed is not saved: ${problem.message}`));
     }
+  }
+
+  /** What is typed stays, and is not saved. */
+  refused(problem) {
+    const { line, error } = problem.said || {};
+    this.problem({ line: line || 0, words: error || problem.message });
+    this.revert.hidden = false;
+    this.keep.hidden = !(problem.code === 409 && problem.said && problem.said.now);
   }
 
   /** What is not TOML, or nothing. */

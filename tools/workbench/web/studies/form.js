@@ -3,6 +3,7 @@
 
 import { ask, send } from "workbench/page/server.js";
 import { button, element, tell } from "workbench/page/elements.js";
+import { madeUpon } from "workbench/page/upon.js";
 import { KeyChooser } from "workbench/studies/keys.js";
 
 export const METHODS = [
@@ -51,6 +52,7 @@ export class StudyForm {
   /** `changed()` is called after each change that is saved. */
   constructor(place, changed) {
     Object.assign(this, { place, changed, waiting: [], busy: Promise.resolve() });
+    this.own = new Map(); // what the changes of this page have made, by the version before
     this.chooser = new KeyChooser((key) => this.told(() => this.addVary(key)));
   }
 
@@ -66,15 +68,18 @@ export class StudyForm {
     this.draw();
   }
 
-  /** Saves what has been changed of the plan, upon the version that the change before has made. */
+  /** Saves what has been changed of the plan as it was shown, upon what the change before has made. */
   async save(change) {
     const { study } = this;
     Object.assign(this.plan, change);
     this.waiting.push(change);
     const done = this.busy.then(async () => {
-      const { version } = this.study.path === study.path ? this.study : study;
+      let base = study;
+      while (this.own.has(base.version)) base = this.own.get(base.version);
       try {
-        await send("study", { path: study.path, version, plan: change }, { method: "PUT" });
+        const made = await madeUpon(base, (wish) => send("study", { ...wish, path: study.path, plan: change },
+          { method: "PUT" }));
+        if (made && !made.merged && made.version !== base.version) this.own.set(base.version, made);
       } finally {
         this.waiting = this.waiting.filter((one) => one !== change);
       }
@@ -110,8 +115,8 @@ export class StudyForm {
       await act();
       tell(null);
     } catch (problem) {
-      tell(problem);
       if (problem.code === 409) await this.changed();
+      tell(problem);
     }
   }
 

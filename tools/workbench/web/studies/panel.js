@@ -4,6 +4,7 @@
 import { ask, listen, send } from "workbench/page/server.js";
 import { button, element, tell } from "workbench/page/elements.js";
 import { StudyForm, labelled, select } from "workbench/studies/form.js";
+import { madeUpon } from "workbench/page/upon.js";
 import { StudyResults, countsInWords } from "workbench/studies/table.js";
 
 const LIVE = ["queued", "starting", "running"];
@@ -18,6 +19,8 @@ function clock(seconds) {
 class Studies {
   constructor() {
     this.word = "studies";
+    this.base = { text: "" };
+    this.drafts = new Map();
     this.title = "Studies";
   }
 
@@ -101,13 +104,15 @@ class Studies {
   async open(rest) {
     const file = rest.endsWith(".toml");
     const study = file ? await ask("study", { path: rest }) : null;
-    if (study && this.rest !== rest) this.setup.open = !Object.keys(study.counts).length;
+    const another = this.rest !== rest;
+    if (study && another) this.setup.open = !Object.keys(study.counts).length;
     this.rest = rest;
     this.study = study;
     this.heading.textContent = study && study.plan ? study.plan.title || rest : rest;
     for (const part of [this.setup, this.startPart]) part.hidden = !file;
     if (study) {
-      this.text.value = study.text;
+      if (another) this.changeText(study);
+      else if (this.text.value === this.base.text) this.showText(study); // else what is typed stays
       await this.form.show(study);
       this.check();
     }
@@ -175,10 +180,27 @@ class Studies {
     await this.results.look();
   }
 
+  /** What is typed is a change of this text. */
+  showText({ path, text, version }) {
+    this.text.value = text;
+    this.base = { path, text: this.text.value, version }; // with ends of lines as the page has them
+  }
+
+  /** What has been typed in the text of one study is there again when it is shown again. */
+  changeText(study) {
+    if (this.text.value !== this.base.text) this.drafts.set(this.base.path, { text: this.text.value, base: this.base });
+    this.showText(study);
+    const draft = this.drafts.get(study.path);
+    if (draft) Object.assign(this, { base: draft.base }).text.value = draft.text;
+    this.drafts.delete(study.path);
+  }
+
   async saveText() {
-    const { path, version } = this.study;
-    await send("study/text", { path, version, text: this.text.value }, { method: "PUT" });
+    const { path } = this.study;
+    const text = this.text.value;
+    const made = await madeUpon(this.base, (wish) => send("study/text", { ...wish, path, text }, { method: "PUT" }));
     tell(null);
+    if (this.text.value === text && made) this.showText(made);
     await this.open(this.rest);
   }
 
