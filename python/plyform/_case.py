@@ -17,8 +17,15 @@ from ._plyform import Mistake, Outlook, PredictedError, Scene
 Value = Any
 
 
-def _toml(value: Value) -> str:
+#: Lists and tables within each other: no key takes as many.
+_MOST_NESTED = 20
+
+
+def _toml(value: Value, deep: int = 0) -> str:
     """`value` as TOML in one line."""
+    if deep > _MOST_NESTED:
+        raise TypeError(f"a key cannot be set to what holds more than {_MOST_NESTED} lists or tables within "
+                        "each other, or itself")
     if hasattr(value, "tolist"):  # NumPy
         value = value.tolist()
     if isinstance(value, bool):
@@ -30,11 +37,18 @@ def _toml(value: Value) -> str:
     if isinstance(value, (str, os.PathLike)):
         return json.dumps(os.fspath(value), ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, Mapping):
-        inside = (f"{_toml(str(key))} = {_toml(item)}" for key, item in value.items())
+        inside = (f"{_toml(_word(key))} = {_toml(item, deep + 1)}" for key, item in value.items())
         return "{" + ", ".join(inside) + "}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_toml, value)) + "]"
+        return "[" + ", ".join(_toml(item, deep + 1) for item in value) + "]"
     raise TypeError(f"a key cannot be set to {value!r}: give a number, text, list or table")
+
+
+def _word(key: object) -> str:
+    """A key, of a case or of a table. Raises TypeError unless it is a text."""
+    if not isinstance(key, str):
+        raise TypeError(f"{key!r} is no key: a key is a text, as 'ply.0.angle'")
+    return key
 
 
 @dataclass(frozen=True)
@@ -122,9 +136,11 @@ class Case:
         """Changes a key, a dotted path with list items by name or number: `tool.punch.stroke`; units of the
         file.
 
-        What cannot be is found by `check`. Raises TypeError for values that TOML does not have.
+        What cannot be is found by `check`. Raises TypeError for values that TOML does not have, and for
+        a key that is no text.
         """
         text = _toml(value)
+        key = _word(key)
         self._settings.pop(key, None)  # the last one counts
         self._settings[key] = text
 
@@ -133,9 +149,9 @@ class Case:
         the default, or as picked for the accuracy asked for. Tables are dicts.
 
         None if a key that has no default is not given: `keys()` says what holds then. Raises
-        KeyError for a key that does not exist.
+        KeyError for a key that does not exist, TypeError for one that is no text.
         """
-        return _plyform.value_of(self.file, self._overrides(), key)
+        return _plyform.value_of(self.file, self._overrides(), _word(key))
 
     @property
     def settings(self) -> dict[str, str]:

@@ -78,6 +78,14 @@ class Result:
         return f"<Result {self.status or 'not ended'} at {self.frame.stroke_mm:g} mm>"
 
 
+def _check_start(ply: str, what: str, values: NDArray[np.float64]) -> None:
+    """Raises ValueError unless all are finite."""
+    wrong = np.flatnonzero(~np.isfinite(values).all(axis=1))
+    if len(wrong):
+        raise ValueError(f"ply {ply}: {what} of node {wrong[0]} are {values[wrong[0]].tolist()}: give finite "
+                         "numbers")
+
+
 class Simulation:
     """A case in motion, whose arrays can be looked at while it runs. Runs once.
 
@@ -126,9 +134,12 @@ class Simulation:
         KeyboardInterrupt for Ctrl-C. Callbacks run in the calling thread; other threads of Python
         go on while the run computes.
 
-        Raises Stopped if the simulation stops itself, with the last good state, and Error for files
-        that cannot be written.
+        Raises Stopped if the simulation stops itself, with the last good state, Error for files that
+        cannot be written, and ValueError for a start that is not of finite numbers.
         """
+        for ply in self.plies:
+            _check_start(ply.name, "positions", ply.positions)
+            _check_start(ply.name, "velocities", ply.velocities)
         folder = None if output is None else Path(output)
         outcome = self._simulation.run(folder, progress, frame)
         self.result = Result(outcome.last, json.loads(outcome.summary), folder)

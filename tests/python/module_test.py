@@ -66,6 +66,20 @@ def check_values(_):
     assert "did you mean friction?" in str(raised(KeyError, case.get, "contact.frction"))
     assert "numbered from 0 to 2" in str(raised(KeyError, case.get, "tool.3.name"))
     raised(TypeError, case.set, "title", None)
+    for key in (None, 1.5, b"title", ("ply", 0)):
+        assert "is no key" in str(raised(TypeError, case.set, key, 1.0)), key
+        raised(TypeError, case.get, key)
+    raised(TypeError, plyform.Case, HEMISPHERE, {None: 1.0})
+    raised(TypeError, case.set, "fabrics.glass", {None: 1.0})
+    itself, table = [1.0], {}
+    itself.append(itself)
+    table["of"] = [table]
+    for value in (itself, table):
+        assert "itself" in str(raised(TypeError, case.set, "tool.1.points", value))
+    simulation = plyform.Simulation(coarse())
+    simulation.plies["ply"].positions[7, 1] = float("nan")
+    said = str(raised(ValueError, simulation.run))
+    assert "ply ply: positions of node 7 are" in said, said
     raised(ValueError, plyform.Case, HEMISPHERE, accuracy="rough")
     squares = {"blanks.square.mesh_from": "element_size", "blanks.square.element_size": 6.8}
     outlook = plyform.Case(HEMISPHERE, {"ply.0.angle": 45.0, **squares}).outlook(threads=1)
