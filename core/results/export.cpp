@@ -2,7 +2,9 @@
 // States in formats that other programs read: VTK XML (.vtu), binary STL and CSV.
 #include "core/results/export.hpp"
 
+#include "base/outputs.hpp"
 #include "base/write_whole.hpp"
+#include "core/results/replace_run.hpp"
 #include "core/results/result_fields.hpp"
 
 #include <bit>
@@ -111,11 +113,13 @@ std::string vtu(const PlyFrame& ply) {
   return file.xml + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-/// Writes one state; `suffix` follows the names of bodies.
+/// Writes one state; `suffix` follows the names of bodies. `kept`: files that it must not replace.
 void export_state(const Frame& state, const ExportChoice& choice, const fs::path& folder,
-                  const std::string& suffix, std::vector<fs::path>& files) {
+                  const std::vector<fs::path>& kept, const std::string& suffix,
+                  std::vector<fs::path>& files) {
   const auto write = [&](const std::string& name, const char* ending, const std::string& content) {
     files.push_back(folder / (name + suffix + ending));
+    keep_files(files.back(), kept);
     write_whole(files.back(), content);
   };
   for (const PlyFrame& ply : state.plies) {
@@ -142,7 +146,14 @@ std::vector<fs::path> export_results(const fs::path& directory, const ExportChoi
   // what is not there is told by read_frame
   const long first = choice.all ? 0 : one < 0 ? count + one : one;
   const long end = choice.all ? count : first + 1;
+  if (choice.frame && one < -1)
+    throw std::runtime_error(fmt::format("there is no frame {}: states are numbered from 0, and -1 "
+                                         "is the last",
+                                         one));
   const fs::path folder = choice.folder.empty() ? directory / "export" : choice.folder;
+  std::vector<fs::path> kept = files_of_run(directory);
+  for (fs::path& file : kept)
+    file = directory / file;
   std::vector<fs::path> files;
   for (long index = first; index < end; ++index) {
     if (choice.progress)
@@ -154,7 +165,7 @@ std::vector<fs::path> export_results(const fs::path& directory, const ExportChoi
     if (error)
       throw std::runtime_error(
           fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
-    export_state(state, choice, folder, numbered ? fmt::format("_{:06}", index) : "", files);
+    export_state(state, choice, folder, kept, numbered ? fmt::format("_{:06}", index) : "", files);
   }
   return files;
 }

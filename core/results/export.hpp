@@ -21,7 +21,7 @@ struct ExportChoice {
 /// Reads the last state of DIR/results.h5, or those of the choice, and writes FOLDER/NAME.vtu,
 /// .stl and .csv for each ply and .stl for each tool; NAME_000012.vtu and so on where states were
 /// chosen. Returns the files written. Throws std::runtime_error naming results.h5 and what is wrong
-/// with it, before anything of that state is written.
+/// with it, before anything of that state is written; WouldOverwrite for a file of the run.
 std::vector<std::filesystem::path> export_results(const std::filesystem::path& directory,
                                                   const ExportChoice& choice = {});
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/replace_run.hpp"
 
+#include "base/outputs.hpp"
 #include "base/write_whole.hpp"
 #include "core/results/size_file.hpp"
 
@@ -46,6 +47,8 @@ std::vector<fs::path> files_of_run(const fs::path& folder) {
 }
 
 void replace_run(const fs::path& folder, const fs::path& second, const fs::path& former) {
+  keep_out_of_link(former);
+  keep_out_of_link(former / "plies");
   remove_results(former);
   move_results(folder, former);
   move_results(second, folder);

@@ -2,6 +2,7 @@
 #include "core/results/result_writer.hpp"
 
 #include "base/names.hpp"
+#include "base/outputs.hpp"
 #include "base/text.hpp"
 #include "base/thread_pool.hpp"
 #include "base/write_whole.hpp"
@@ -190,8 +191,21 @@ void remove_former_run(const fs::path& directory) {
     remove_file(table);
 }
 
+/// Throws WouldOverwrite if the files that a run removes and writes are not all of one.
+void check_former_run(const fs::path& directory) {
+  keep_out_of_link(directory / "plies");
+  keep_foreign(directory / "summary.json", "\"wall_time_s\"");
+  keep_foreign(directory / "history.csv", "time_s,stroke_mm");
+  keep_foreign(directory / "results.xdmf", "<Grid Name=\"plyform\"");
+  keep_foreign(directory / "results.h5", "plyform_version");
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory / "plies", ignored))
+    if (entry.path().extension() == ".csv") keep_foreign(entry.path(), "x0,y0,z0,x,y,z");
+}
+
 /// Creates the folder of a run; returns its path.
 fs::path make_folder(const fs::path& directory) {
+  check_former_run(directory);
   const fs::path plies = directory / "plies";
   std::error_code error;
   fs::create_directories(plies, error);

@@ -33,7 +33,7 @@ class ResultWriter {
 public:
   /// Creates `directory` (and parents) and keeps other runs out of it. Results of a former run
   /// remain there until the first frame. Throws std::runtime_error naming the path and the reason,
-  /// also if another run writes into it.
+  /// also if another run writes into it; WouldOverwrite if its files are not all of a run.
   explicit ResultWriter(const std::filesystem::path& directory);
   ~ResultWriter();
 

@@ -16,10 +16,10 @@ expect 0 "$("$program" version)" --version
 expect 0 'tool[].radius' keys
 expect 0 'weft_strain,weft-strain,weft strain,1,triangle,1' columns
 expect 0 'stitch_tension_N,stitch-tension' columns stitch
-expect 1 'two columns would be called x: give a family another name' columns x
-expect 1 'subcommand is required'
-expect 1 'subcommand is required' frob
-expect 1 'threads' run cases/hemisphere_0 --threads 0
+expect 2 'two columns would be called x: give a family another name' columns x
+expect 2 'subcommand is required'
+expect 2 'subcommand is required' frob
+expect 2 'threads' run cases/hemisphere_0 --threads 0
 # A standard output that takes nothing is told, by every command that prints there.
 if [ -e /dev/full ]; then
   "$program" export results_of_nothing >/dev/null 2>&1 || true
@@ -89,9 +89,27 @@ expect 0 'results/hemisphere_0' run cases/hemisphere_0/ "${short[@]}"
 expect 0 'results/hemisphere_45' run cases/hemisphere_45/case.toml "${short[@]}"
 expect 0 'ply.vtu' export results/hemisphere_0
 expect 1 'results.h5' export nosuch
+for frame in -5 -2 1.5 last; do
+  expect 2 "--frame $frame: a number from 0, -1 for the last, or all" export results/hemisphere_0 "--frame=$frame"
+  expect 2 frame map results/hemisphere_0 "--frame=$frame"
+done
+for options in "--from abc" "--direction x" "--no-such-option" "--frame"; do
+  # shellcheck disable=SC2086
+  expect 2 "${options%% *}" identify warp curve.csv $options
+done
+# Numbers that no double or 64 bits hold are values that are too large: all mistakes are told.
+for number in 1e400 -1e400 +1_0e4_00 100000.5e999 99999999999999999999 -99999999999999999999; do
+  sed "s/^stroke = .*/stroke = $number  # mm/; s/^duration = .*/duration = -1.0/" cases/hemisphere_0/case.toml \
+    >cases/hemisphere_0/reach.toml
+  expect 2 ":26:10: error: tool.0.stroke = $number: must be at" check cases/hemisphere_0/reach.toml
+  expect 2 'solver.duration = -1.0: must be' check cases/hemisphere_0/reach.toml
+done
+expect 2 'tool.0.stroke = 1e400: must be at' check cases/hemisphere_0 --set tool.0.stroke=1e400
+expect 2 "is no TOML: Error while parsing floating-point: expected decimal digit, saw 'x'" \
+  check cases/hemisphere_0 --set tool.0.stroke=1e400x
 expect 0 'shear_angle_deg,0,0,0,0,0' difference results/hemisphere_0 results/hemisphere_0
 expect 0 'warp_strain,0' difference results/hemisphere_0 results/hemisphere_0 --field warp_strain
-expect 1 'shear is no field of triangles; there are shear_angle_deg' \
+expect 2 'shear is no field of triangles; there are shear_angle_deg' \
   difference results/hemisphere_0 results/hemisphere_0 --field shear
 expect 1 'nosuch/results.h5' difference results/hemisphere_0 nosuch
 for name in hemisphere_0 hemisphere_45; do

@@ -404,8 +404,8 @@ expect 2 'yarns = 0: must be greater than 0' identify warp yarn.csv --yarns 0 \
   --fabric glass.toml -o never.toml
 expect 2 'to = 90: must be above 0 and below 90' theory bias "${bias[@]}" --to 90 -o never.csv
 expect 1 'nosuch/never' identify bias low.csv "${bias[@]}" -o nosuch/never.toml
-expect 1 '--length is required' identify bias low.csv --width 100 --fabric glass.toml -o never.toml
-expect 1 'subcommand is required' identify
+expect 2 '--length is required' identify bias low.csv --width 100 --fabric glass.toml -o never.toml
+expect 2 'subcommand is required' identify
 for file in never.toml never_fit.csv never.csv x.csv; do
   [ ! -e "$file" ] || fail "a mistake has written $file"
 done

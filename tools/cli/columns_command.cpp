@@ -3,6 +3,7 @@
 #include "tools/cli/commands.hpp"
 
 #include <fmt/format.h>
+#include <stdexcept>
 
 namespace plyform {
 
@@ -12,7 +13,7 @@ int columns_command(const std::vector<std::string>& families) {
     ply.families.push_back({name, 0.0, {}, {}, {}});
   const std::string twice = name_used_twice(ply);
   if (!twice.empty())
-    throw std::runtime_error(
+    throw std::invalid_argument(
         fmt::format("two columns would be called {}: give a family another name", twice));
   fmt::print("name,word,label,unit,place,numbers\n");
   each_column(ply, []<class Value>(const Column& column, const std::vector<Value>&) {

@@ -25,7 +25,7 @@ int export_command(const ExportArguments& arguments) {
     const char* end = arguments.frame.data() + arguments.frame.size();
     long frame = 0;
     const auto [stop, error] = std::from_chars(arguments.frame.data(), end, frame);
-    if (error != std::errc() || stop != end) {
+    if (error != std::errc() || stop != end || frame < -1) {
       fmt::print(stderr, "plyform: error: --frame {}: a number from 0, -1 for the last, or all\n",
                  arguments.frame);
       return exit_case_wrong;

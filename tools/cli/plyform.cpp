@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command line: plyform run | check | chart | studio | report | map | pattern | export |
 // difference | identify | theory | keys | version.
+#include "base/outputs.hpp"
 #include "base/text.hpp"
 #include "base/version.hpp"
 #include "core/setup/scene_mesh.hpp"
@@ -17,6 +18,7 @@
 #include <malloc.h>
 #endif
 #include <sstream>
+#include <stdexcept>
 #include <system_error>
 
 using namespace plyform;
@@ -182,6 +184,12 @@ int run_chosen(const std::vector<Command>& commands) {
   } catch (const ScoutStopped& e) {
     fmt::print(stderr, "plyform: {}\n", printable(e.what()));
     return exit_stopped;
+  } catch (const WouldOverwrite& e) {
+    fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
+    return exit_case_wrong;
+  } catch (const std::invalid_argument& e) { // an option's value that a library refuses
+    fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
+    return exit_case_wrong;
   } catch (const std::exception& e) {
     // with_output_written tells of standard output, if that was it
     if (std::ferror(stdout) == 0) fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
@@ -206,8 +214,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Forms stacks of woven and non-crimp fabric plies between rigid tools."};
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("plyform {}", version()), "print the version");
-  app.footer(
-      "Exit codes: 0 done, 2 the case or curve is wrong, 3 the simulation stopped itself, 1 else.");
+  app.footer("Exit codes: 0 done, 2 case, curve or options wrong, 3 the simulation stopped itself, "
+             "1 else.");
   Arguments arguments;
   std::vector<Command> commands;
   add_case_commands(app, arguments, commands);
@@ -216,7 +224,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     std::ostringstream out, err;
-    const int code = app.exit(e, out, err) == 0 ? exit_done : exit_other;
+    const int code = app.exit(e, out, err) == 0 ? exit_done : exit_case_wrong;
     std::fputs(out.str().c_str(), stdout);
     std::fputs(err.str().c_str(), stderr);
     return with_output_written(code);

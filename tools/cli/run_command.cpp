@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "base/thread_pool.hpp"
 #include "base/version.hpp"
@@ -16,7 +17,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 
 namespace plyform {
 namespace {
@@ -193,10 +196,34 @@ int tell_end(const Summary& summary, const std::filesystem::path& folder) {
   return ended(summary.status) ? exit_done : exit_other;
 }
 
-/// Whether the run in this folder has come to its end; says so.
-bool ended_before(const std::filesystem::path& folder) {
+/// Whether the run whose summary this is was of this case, with the same settings and files, by
+/// this version: as a checkpoint's identity, from what the summary says of its case.
+bool same_case(const nlohmann::json& summary, const PreparedCase& prepared) {
+  if (!summary.is_object() || summary.value("version", nlohmann::json()) != version()) return false;
+  nlohmann::json given = nlohmann::json::object();
+  for (const auto& [key, value] : prepared.given)
+    given[key] = value;
+  // as it is written: bytes that are no UTF-8 become U+FFFD
+  const auto text = [](const nlohmann::json& of) {
+    return of.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  };
+  return text(summary.value("case", nlohmann::json())) == text(given);
+}
+
+/// Whether the run in this folder has come to its end; says so. Throws std::invalid_argument if it
+/// was of another case.
+bool ended_before(const std::filesystem::path& folder, const PreparedCase& prepared) {
+  const std::filesystem::path file = folder / "summary.json";
   std::error_code ignored;
-  if (!std::filesystem::exists(folder / "summary.json", ignored)) return false;
+  if (!std::filesystem::exists(file, ignored)) return false;
+  std::string reason;
+  const std::optional<std::string> content = read_file(file, most_mesh_bytes, reason);
+  if (!content) throw std::runtime_error(fmt::format("{}: {}", file.string(), reason));
+  if (!same_case(nlohmann::json::parse(*content, nullptr, false), prepared))
+    throw std::invalid_argument(
+        fmt::format("{}: is of another case, of other settings or of another version of plyform; "
+                    "run it anew, without --resume, or give another folder",
+                    file.string()));
   fmt::print("the run in {} has ended: there is nothing to resume\n", folder.string());
   return true;
 }
@@ -310,7 +337,7 @@ int run_command(const RunArguments& arguments) {
   std::optional<Resume> resume;
   if (arguments.resume) {
     resume = find_checkpoint(writer, folder, prepared.identity);
-    if (!resume && ended_before(folder)) return exit_done;
+    if (!resume && ended_before(folder, prepared)) return exit_done;
   }
   const bool verified = arguments.verify || prepared.value->accuracy.verify;
   VerifyOptions options{folder, threads, arguments.input.yes_large, &interrupted(), &*file};

@@ -5,6 +5,7 @@
 #include "core/input/keys/toml_depth.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <fmt/format.h>
 #include <string_view>
@@ -133,6 +134,30 @@ TomlNode convert(const toml::node& node, const Source& source) {
   return entry;
 }
 
+/// Numbers that no double or 64 bits hold stop toml++ at their end: one of the same length in their
+/// place, beyond the range of every key, lets the rest be read; what is quoted is what the file
+/// has. Whether there was such a number.
+bool within_reach(std::string& text, const Source& source, const toml::parse_error& error) {
+  const std::string_view rule = error.description();
+  const toml::source_position at = error.source().begin;
+  if (rule.find("could not be interpreted as a value") == rule.npos &&
+      rule.find("is not representable in 64 bits") == rule.npos)
+    return false;
+  if (at.line == 0 || at.line > source.lines.size()) return false;
+  const SourceLine& line = source.lines[at.line - 1];
+  const std::size_t end = line.byte_of(at.column);
+  std::size_t begin = end;
+  while (begin > 0 &&
+         (std::isalnum(static_cast<unsigned char>(line.text[begin - 1])) != 0 ||
+          std::string_view("._+-").find(line.text[begin - 1]) != std::string_view::npos))
+    --begin;
+  if (begin < end && (line.text[begin] == '-' || line.text[begin] == '+')) ++begin;
+  if (end - begin < 5) return false;
+  const auto from = static_cast<std::size_t>(line.text.data() - source.lines.front().text.data());
+  text.replace(from + begin, end - begin, fmt::format("1e{:0{}}", 300, end - begin - 2));
+  return true;
+}
+
 } // namespace
 
 std::optional<TomlNode> parse_entries(const std::string& text, const std::string& name,
@@ -152,15 +177,18 @@ std::optional<TomlNode> parse_entries(const std::string& text, const std::string
                       "fabric is as deep");
     return std::nullopt;
   }
-  try {
-    const toml::table table = toml::parse(std::string_view(text), std::string_view(name));
-    return convert(table, source);
-  } catch (const toml::parse_error& error) {
-    diagnostics.error(place_of(source, error.source().begin), "", "",
-                      "is no TOML: " + std::string(error.description()),
-                      "correct the line, or the bracket or quote left open before it");
-    return std::nullopt;
-  }
+  std::string readable = text;
+  for (int most = 100;; --most) // of numbers beyond reach
+    try {
+      const toml::table table = toml::parse(std::string_view(readable), std::string_view(name));
+      return convert(table, source);
+    } catch (const toml::parse_error& error) {
+      if (most > 0 && within_reach(readable, source, error)) continue;
+      diagnostics.error(place_of(source, error.source().begin), "", "",
+                        "is no TOML: " + std::string(error.description()),
+                        "correct the line, or the bracket or quote left open before it");
+      return std::nullopt;
+    }
 }
 
 std::optional<TomlNode> parse_value(const std::string& text, const std::string& name, int column,

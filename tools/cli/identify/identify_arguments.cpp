@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of the arguments of plyform identify and theory, and what they ask for.
+#include "base/outputs.hpp"
 #include "base/text.hpp"
 #include "core/identify/test_columns.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
@@ -13,12 +14,6 @@ namespace plyform {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) ||
-         fs::equivalent(a, b, ignored);
-}
 
 void check_range(const IdentifyArguments& arguments, Diagnostics& diagnostics) {
   const bool shear = is_shear_test(arguments.test);
@@ -121,12 +116,9 @@ bool print_diagnostics(const Diagnostics& diagnostics) {
 
 void check_output(const std::string& option, const fs::path& output,
                   const std::vector<fs::path>& others, Diagnostics& diagnostics) {
-  fs::path temporary = output;
-  temporary += ".tmp";
-  for (const fs::path& other : others)
-    if (same_file(output, other) || same_file(temporary, other))
-      option_error(option, output.string(), "would overwrite " + other.string(),
-                   "give another file", diagnostics);
+  if (const std::optional<fs::path> lost = file_overwritten(output, others))
+    option_error(option, output.string(), "would overwrite " + lost->string(), "give another file",
+                 diagnostics);
 }
 
 std::optional<ShearTest> test_of(const std::string& name, const SpecimenArguments& sizes,
