@@ -207,10 +207,12 @@ def text_beside(page: Page) -> None:
 def mistakes(page: Page) -> None:
     """At the key, in the outline, in the scene, in the text, in the list, which leads there."""
     page.until(lambda: "wrong" not in page.find("#check-state").get_attribute("class"), seconds=120)
+    page.until(lambda: page.js("return Boolean(plyform_setup.scene)"), "there is a scene")
     page.item("ply.1")
-    page.key("ply.1.name", page.tree()["ply"][0]["name"])
+    first, second = (ply["name"] for ply in page.tree()["ply"])
+    page.key("ply.1.name", first)
     page.until(lambda: "is taken" in page.text("#trouble"), "a name of another ply is refused")
-    page.key("ply.1.angle", "500")
+    page.write_text(page.written().replace(f'name = "{second}"', f'name = "{first}"'))
     page.until(lambda: page.seen(".fault-words:not(.warning)"), seconds=120)
     page.until(lambda: page.seen('[data-item="ply.1"] b.wrong'), "it is marked in the outline")
     page.until(lambda: page.seen(".fault-line"), "and in the text")
@@ -218,7 +220,7 @@ def mistakes(page: Page) -> None:
     page.item("case")
     page.press(".fault-words:not(.warning)")
     page.until(lambda: page.js("return plyform_setup.chosen") == "ply.1")
-    page.until(lambda: page.seen('[data-at="ply.1.angle"] .words'), "it stands at its key")
+    page.until(lambda: page.seen('[data-at="ply.1.name"] .words'), "it stands at its key")
     page.press("#undo")
     page.until(lambda: not page.seen(".fault-words:not(.warning)"), seconds=120)
 
