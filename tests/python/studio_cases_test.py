@@ -357,10 +357,14 @@ def module_comes_later():
         shutil.copytree(module_of(PROGRAM) / "plyform", package, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
         compiled, = (module_of(PROGRAM) / "plyform").glob("_plyform*.so")
         with Server(TOOLS, program) as server:
-            status, said = server.call("GET", "api/keys")
+            assert "tool[].radius" in {row["key"] for row in server.get("api/keys")}  # by the program itself
+            server.send("api/cases", {"name": "first", "from": "example:hemisphere_0"})
+            version = server.get("api/case", path="first/case.toml")["version"]
+            asked = {"path": "first/case.toml", "version": version}
+            status, said = server.call("GET", "api/check", query=asked)
             assert status == 500 and "cannot be loaded" in said["error"], (status, said)
             shutil.copy2(compiled, package / compiled.name)
-            assert "tool[].radius" in {row["key"] for row in server.get("api/keys")}
+            assert server.get("api/check", **asked)["mistakes"] == []
 
 
 def main():
