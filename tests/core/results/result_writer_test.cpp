@@ -166,7 +166,7 @@ TEST_F(Results, ASecondRunReplacesTheFilesOfTheFirst) {
   write_run(directory, {0.0, 0.5});
   put(directory / "plies/notes.txt", "mine");
   put(directory / "photo.csv", "mine");
-  put(directory / "plies/gone.csv", "of a former run");
+  put(directory / "plies/gone.csv", "x0,y0,z0,x,y,z\n"); // of a former run
   Frame other = frame(0.25);
   other.plies.pop_back();
   ResultWriter writer(directory);
