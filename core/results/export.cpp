@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 namespace plyform {
@@ -120,6 +121,7 @@ void export_state(const Frame& state, const ExportChoice& choice, const fs::path
   const auto write = [&](const std::string& name, const char* ending, const std::string& content) {
     files.push_back(folder / (name + suffix + ending));
     keep_files(files.back(), kept);
+    keep_foreign(files.back(), std::string_view(content).substr(0, 16)); // of its own kind
     write_whole(files.back(), content);
   };
   for (const PlyFrame& ply : state.plies) {
