@@ -205,6 +205,7 @@ class Setup {
     if (by !== "refused" && this.main.version !== this.seen.version) this.forget();
     if (!this.ofFabric) this.outline.show(this.chosen);
     this.form.show(this.chosen);
+    this.showFile();
     if (by === "refused" || this.ofFabric) return;
     this.drawn.ask();
   }
@@ -303,12 +304,19 @@ class Setup {
     this.form.fields.scrollTop = 0;
     this.area.choose(item);
     this.area.blame(this.faults, item);
-    const value = item.startsWith("fabrics.") && this.main.tree.fabrics ? this.main.tree.fabrics[item.split(".")[1]]
-      : null;
-    const file = typeof value === "string" ? this.fileOf(value) : this.main;
-    this.editor.show(file && file.text !== undefined ? file : this.main);
-    this.markLines();
+    this.showFile();
     if (this.editor.file === this.main && item !== "case") this.editor.pointKey(item);
+  }
+
+  /** The text of the chosen item: that of a fabric's own file as soon as it is loaded. */
+  showFile() {
+    const [group, name] = this.chosen.split(".");
+    const value = group === "fabrics" && this.main.tree.fabrics ? this.main.tree.fabrics[name] : null;
+    const file = typeof value === "string" ? this.fileOf(value) : this.main;
+    const shown = file && file.text !== undefined ? file : this.main;
+    if (this.editor.file === shown) return;
+    this.editor.show(shown);
+    this.markLines();
   }
 
   /** Goes to what a mistake is about: its body, its key, its line. */
