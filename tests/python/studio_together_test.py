@@ -71,9 +71,15 @@ class Names:
         self.known = {name: name for name in NAMES}
 
     def flat(self, text):
-        """Values by keys, items by who they are; comments too."""
-        found = {("#", line.strip()): True for line in text.splitlines() if line.startswith("#")}
-        waiting = [((), tomllib.loads(text))]
+        """Values by keys, items by who they are; comments by the item that they stand in, as a copy has them too."""
+        found, waiting, place = {}, [((), tomllib.loads(text))], ()
+        for line in text.splitlines():
+            if line.startswith("["):
+                place = (line.strip("[] "),)
+            elif line.startswith("name = ") and len(place) == 1:
+                place = (*place, self.who({"name": line.split('"')[1]}, 0))
+            elif line.startswith("#"):
+                found[(*place, "#", line.strip())] = True
         while waiting:
             path, value = waiting.pop()
             if isinstance(value, dict):
