@@ -166,10 +166,10 @@ def check_last(results, file):
 
 def check_wrong(results):
     for words, told, code in ((("--frame", "9"), "has no frame 9, but 3 from 0", 1),
-                              (("--frame=-9",), "has no frame -9", 1),
+                              (("--frame=-9",), "--frame -9: a number from 0", 2),
                               (("--frame", "two"), "--frame two: a number from 0", 2),
                               (("--frame", "9", "--format", "gltf"), "has no frame 9", 2),
-                              (("--format", "obj"), "--format", 1)):
+                              (("--format", "obj"), "--format", 2)):
         done = call("export", results, *words, code=code)
         assert told in done.stderr, done
 

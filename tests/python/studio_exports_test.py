@@ -191,7 +191,7 @@ def check_drawing(page, run):
 
 
 def check_patterns(page, folder, run):
-    page.refused("pattern", "name of a file")  # no trim line
+    page.refused("pattern", "choose a trim line")  # no trim line
     page.pick("#pattern-trim", "trim.csv")
     assert "saved" in page.go_on("pattern")
     page.when("return document.querySelector('[data-name=\"pattern/ply1.dxf\"] button')")
