@@ -181,7 +181,10 @@ def check_keys():
             if name == "columns":
                 there = [{part: getattr(c, part) for part in columns} for c in there]
             assert there == value, (key, name, there, value)
-        assert key.kind in kinds and (key.kind == "choice") == bool(key.choices), key
+        assert key.kind in kinds and (key.kind == "choice") <= bool(key.choices), key
+        assert not key.choices or key.kind == "choice" or key.refers, key
+        assert all(any(name.startswith((f"{place}[].", f"{place}.NAME")) for name in KEYS)
+                   for place in key.refers), (key, key.refers)
         assert not key.of or set(key.of_values) <= set(
             KEYS[key.key.rpartition(".")[0] + "." + key.of].choices), key
         if key.fallback:

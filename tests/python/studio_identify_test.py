@@ -217,13 +217,13 @@ def pull_out(page, server):
 
 def taken_in(page, server):
     """A file that is chosen on the page lies in the folder, and its curve is there at once."""
-    source = server.folder.parent / "own curve.csv"
+    source = server.folder.parent / f"{90 * 'x'}.csv"
     page.go(server, "identify")
     source.write_text("extension (mm),load (N)\n0,0\n1,2.5\n2,5\n", encoding="utf-8")
     page.give("#identify-upload", source)
     page.until(lambda: "take letters" in page.text("#trouble"), "a name that cannot be taken is told")
-    source.rename(source.with_name("own_curve.csv"))
-    page.give("#identify-upload", source.with_name("own_curve.csv"))
+    source.rename(source.with_name("own curve.csv"))  # what no name may have becomes _
+    page.give("#identify-upload", source.with_name("own curve.csv"))
     page.until(lambda: "3 rows: extension (mm), load (N)" in page.text("#curve-rows"), "its columns are shown")
     assert (server.folder / "curves/own_curve.csv").read_text(encoding="utf-8").endswith("2,5\n")
     page.until(lambda: page.js("return document.querySelectorAll('#curve-chart polyline').length") == 1, "its plot")
@@ -286,7 +286,10 @@ def fabric_alone(page, server):
 
 def stopped(page, server):
     """One that takes long, which a program that waits before it begins stands for."""
-    slow = server.folder.parent / "slow"
+    build = server.folder.parent / "build"  # with the program's Python module
+    (build / "tools").mkdir(parents=True)
+    (build / "python").symlink_to(PROGRAM.parents[1] / "python")
+    slow = build / "tools/slow"
     slow.write_text(f'#!/bin/sh\n[ "$1" = identify ] && sleep 600\nexec "{PROGRAM}" "$@"\n', encoding="utf-8")
     slow.chmod(0o755)
     server.stop()
