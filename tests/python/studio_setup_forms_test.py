@@ -7,7 +7,7 @@ to the files; mistakes at their places; a text that is no TOML.
 
 import tomllib
 
-from studio_page import SetupPage as Page
+from studio_page import SetupPage as Page, of_key
 from studio_setup import go_through
 
 
@@ -20,6 +20,13 @@ def outline_and_forms(page: Page) -> None:
     page.until(lambda: page.tree()["ply"][1]["angle"] == 30)
     page.key("ply.1.seed", "5", part="0")
     page.until(lambda: page.tree()["ply"][1]["seed"] == [5, 0])
+    page.until(lambda: page.near(of_key("ply.1.angle")), "the angle can be typed").click()
+    marked = page.js("""
+      document.activeElement.select();
+      plyform_setup.form.show(plyform_setup.chosen);  // as when another program has changed the file
+      const { dataset, value, selectionStart, selectionEnd } = document.activeElement;
+      return [dataset.key, value, selectionStart, selectionEnd];""")
+    assert marked == ["ply.1.angle", "30", 0, 2], marked
     page.key("ply.1.angle", "")  # needed: taking it away is a mistake, told at the key
     page.until(lambda: "angle" not in page.tree()["ply"][1])
     page.until(lambda: page.seen('[data-at="ply.1"] , [data-at="ply.1.angle"]'))

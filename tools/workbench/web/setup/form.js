@@ -89,6 +89,7 @@ export class Form {
     const at = document.activeElement;
     if (!at || !this.fields.contains(at) || !at.dataset.key) return null;
     return { key: at.dataset.key, part: at.dataset.part, value: at.value, shown: at.defaultValue,
+      marked: at.type === "text" ? [at.selectionStart, at.selectionEnd, at.selectionDirection] : null,
       upon: this.typed.get(at) || this.upon, top: this.fields.scrollTop };
   }
 
@@ -102,6 +103,7 @@ export class Form {
       this.typed.set(at, kept.upon);
     }
     at.focus({ preventScroll: true });
+    if (at.type === "text" && kept.marked) at.setSelectionRange(...kept.marked);
     this.fields.scrollTop = kept.top;
   }
 
