@@ -26,6 +26,11 @@ numbers() {
   fi
 }
 
+# The call that failed: none if progress.json was written less often than when calls were counted.
+failed_call() {
+  grep -m 1 FAILED failed || echo "$number, which did not come"
+}
+
 # one_message CODE FOLDER: what a program that failed says.
 one_message() {
   local said
@@ -76,7 +81,7 @@ each() {
     code=0
     "$fail_call" again failed "$number$3" "$2" "$program" run "${arguments[@]}" --resume -o again \
       >/dev/null 2>message || code=$?
-    what="run, $2$3 at call $(grep -m 1 FAILED failed)"
+    what="run, $2$3 at call $(failed_call)"
     count=$((count + 1))
     # A call may fail that nothing depends on.
     if [ "$code" = 0 ]; then
@@ -133,7 +138,7 @@ for error in ENOSPC+ EIO; do
     code=0
     "$fail_call" again failed "$number${error//[A-Z]/}" "${error%+}" "$program" export again \
       >/dev/null 2>message || code=$?
-    what="export, $error at call $(grep -m 1 FAILED failed)"
+    what="export, $error at call $(failed_call)"
     count=$((count + 1))
     [ "$code" = 0 ] || one_message "$code" again
     diff -r -x export whole again || fail "$what: changes the run"
