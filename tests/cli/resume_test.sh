@@ -107,8 +107,12 @@ for signal in INT TERM HUP; do
     >again.log 2>&1 || fail "SIG$signal: $(tail -n 1 again.log)"
   same again
 done
-"$program" run "${stack[@]}" --resume -o again >again.log 2>&1 || fail "nothing to resume is an error"
+"$program" run "${stack[@]}" --set solver.checkpoint_interval=1000 --resume -o again >again.log 2>&1 ||
+  fail "nothing to resume is an error"
 grep -q 'nothing to resume' again.log || fail "does not say that there is nothing to resume"
+code=0 # with other settings it has not ended
+"$program" run "${stack[@]}" --resume -o again >again.log 2>&1 || code=$?
+[ "$code" = 2 ] && grep -q 'is of another case' again.log || fail "code $code: $(tail -n 1 again.log)"
 
 # Two at once, another case, a damaged checkpoint.
 rm -rf again
