@@ -69,5 +69,22 @@ expect 0 'there is nothing to resume' run case "${short[@]}" -o run --resume
 expect 2 'is of another case' run case "${short[@]}" -o run --resume --set solver.outputs=3
 sed -i 's/^stiffness = 46000.*/stiffness = 46001.0/' fabrics/glass_plain_weave.toml
 expect 2 'is of another case' run case "${short[@]}" -o run --resume
+
+# Python: what is read stays what it is under another name, and no more once another file has its inode
+PYTHONPATH="$tests/../../tools" /usr/bin/python3 - <<'END' || fail "what Python reads"
+import os, pathlib
+from base import ending, outputs
+one, other = pathlib.Path("one"), pathlib.Path("other")
+one.write_text("1")
+outputs.note_read(one, one.stat())
+os.link(one, other)
+try:
+    outputs.check_output(other)
+    raise SystemExit(1)
+except ending.Mistake:
+    pass
+one.unlink()
+outputs.check_output(other)
+END
 echo "$failures failed"
 [ "$failures" = 0 ]

@@ -223,6 +223,8 @@ def taken_in(server):
     begun = server.send("api/import", {"path": "first/d.step", "as": "tool", "deflection": 0.1, "offset": 1.5})
     assert begun["outputs"] == ["first/d_die.stl", "first/d_punch.stl"]
     assert begun["process"]["command"][-2:] == ["--offset", "1.5"]
+    while server.get(f"api/processes/{begun['process']['id']}")["state"] not in ("done", "failed"):
+        time.sleep(0.1)
     part = {"path": "first/d.step", "as": "tool", "replace": True, "case": CASE}
     begun = server.send("api/import", {**part, "stack": True, "shear": 30, "solid": "part"})
     assert begun["process"]["command"][-6:] == ["--stack", str(server.folder.resolve() / CASE), "--shear", "30",

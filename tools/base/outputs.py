@@ -12,7 +12,7 @@ RUN = ("results.h5", "summary.json")  # by which a folder that is read is known 
 OF_RUN = (*RUN, "history.csv", "results.xdmf", "mesh_sizes.txt", "checkpoint")
 TOKEN = 8  # bytes by which kinds of files are told apart: <!doctype html>, %PDF-1.4, ply,angle_deg
 
-read: set[tuple[int, int]] = set()     # device and inode of files
+read: dict[tuple[int, int], Path] = {}  # device and inode of files, which others may have once a file is gone
 runs: set[tuple[int, int]] = set()     # of folders
 written: set[tuple[int, int]] = set()  # of files that this program has made
 
@@ -31,7 +31,7 @@ def found(path: Path) -> os.stat_result | None:
 def note_read(path: Path, status: os.stat_result) -> None:
     if identity(status) in written:
         return
-    read.add(identity(status))
+    read[identity(status)] = path.absolute()
     if path.name in RUN and (folder := found(path.parent)):
         runs.add(identity(folder))
 
@@ -39,6 +39,12 @@ def note_read(path: Path, status: os.stat_result) -> None:
 def note_written(path: Path) -> None:
     if status := found(path):
         written.add(identity(status))
+
+
+def is_read(status: os.stat_result) -> bool:
+    """Whether it is of a file that was read, and is there still."""
+    there = found(read[identity(status)]) if identity(status) in read else None
+    return there is not None and identity(there) == identity(status)
 
 
 def lost(path: Path, why: str) -> Mistake:
@@ -51,7 +57,7 @@ def check_output(path: Path, rewrite: bool = False) -> None:
     status = found(path)
     if status is None:
         return
-    if identity(status) in read and not rewrite:
+    if is_read(status) and not rewrite:
         raise lost(path, "is read")
     in_plies = path.parent.name == "plies" and path.suffix == ".csv"
     folder = found(path.parent.parent if in_plies else path.parent)
