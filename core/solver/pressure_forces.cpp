@@ -71,11 +71,11 @@ void PressureForces::run(Scene& s, int task) {
 }
 
 void PressureForces::end_step(Scene& s) {
-  for (PlyBody& ply : s.plies) {
-    ply.load_work +=
-        ply.last_load_work + half_work(ply); // pre-tension's, too: core/solver/pretension.hpp
-    ply.last_load_work = 0.0;
-  }
+  for (PlyBody& ply : s.plies)
+    if (!ply.load.empty()) {
+      ply.load_work += ply.last_load_work + half_work(ply);
+      ply.last_load_work = 0.0;
+    }
 }
 
 void PressureForces::list_arrays(Scene& s) {

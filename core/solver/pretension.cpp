@@ -14,18 +14,26 @@ double end_of_rise(const Scene& s) {
   return rise * s.data.solver.duration;
 }
 
-bool has_any(const Scene& s) {
-  return std::any_of(s.plies.begin(), s.plies.end(),
-                     [](const PlyBody& ply) { return has_pretension(ply.membrane.fabric); });
+/// Gives stitches the pre-tension of a time, s.
+void set_pretension(Scene& s, double time) {
+  const double share = smooth_step(1.0, time, end_of_rise(s));
+  for (PlyBody& ply : s.plies) {
+    Membrane& m = ply.membrane;
+    for (std::size_t i = 0; i < m.fabric.stitches.size(); ++i)
+      if (const double own = m.fabric.stitches[i].law.taut_at; own < 0.0)
+        m.families[m.fabric.families.size() + i].stitch->taut_at = share * own;
+  }
 }
 
-/// Places of each ply at the begin of the step.
+/// Of plies with pre-tension, the places at the begin of the step; empty of others.
 std::vector<std::vector<Vec3>> places_before(const Scene& s) {
-  std::vector<std::vector<Vec3>> x;
-  for (const PlyBody& ply : s.plies) {
-    x.push_back(ply.x);
-    for (std::size_t n = 0; n < ply.x.size(); ++n)
-      x.back()[n] -= ply.motion[n];
+  std::vector<std::vector<Vec3>> x(s.plies.size());
+  for (std::size_t p = 0; p < x.size(); ++p) {
+    const PlyBody& ply = s.plies[p];
+    if (!ply.simd || !has_pretension(ply.membrane.fabric)) continue;
+    x[p] = ply.x;
+    for (std::size_t n = 0; n < x[p].size(); ++n)
+      x[p][n] -= ply.motion[n];
   }
   return x;
 }
@@ -37,37 +45,32 @@ void add_stored(Scene& s, const std::vector<std::vector<Vec3>>& before, double t
   pool.run(static_cast<int>(energy.size()), [&](int i) {
     const Block& block = s.group_blocks[at(i)];
     const PlyBody& ply = s.plies[at(block.ply)];
-    if (!ply.simd || !has_pretension(ply.membrane.fabric)) return;
+    if (before[at(block.ply)].empty()) return;
     for (const std::vector<Vec3>* x : {&ply.x, &before[at(block.ply)]})
       energy[at(i)] +=
           simd_energy(*ply.simd, ply.membrane, *x, s.dt, block.begin, ply.yarns, ply.shear_factors)
               .stitch;
   });
   for (std::size_t b = 0; b < energy.size(); ++b)
-    s.plies[at(s.group_blocks[b].ply)].last_load_work += times * energy[b];
+    s.plies[at(s.group_blocks[b].ply)].law_work += times * energy[b];
 }
 
 } // namespace
 
-void set_pretension(Scene& s, double time) {
-  const double share = smooth_step(1.0, time, end_of_rise(s));
-  for (PlyBody& ply : s.plies) {
-    Membrane& m = ply.membrane;
-    for (std::size_t i = 0; i < m.fabric.stitches.size(); ++i)
-      if (const double own = m.fabric.stitches[i].law.taut_at; own < 0.0)
-        m.families[m.fabric.families.size() + i].stitch->taut_at = share * own;
+void raise_pretension(Scene& s, ThreadPool& pool) {
+  const double from = s.tightened_until;
+  const bool any = std::any_of(s.plies.begin(), s.plies.end(), [](const PlyBody& ply) {
+    return has_pretension(ply.membrane.fabric);
+  });
+  if (any && from < end_of_rise(s) && from < s.time) {
+    const std::vector<std::vector<Vec3>> before = places_before(s);
+    set_pretension(s, from);
+    add_stored(s, before, -0.5, pool);
+    set_pretension(s, s.time);
+    add_stored(s, before, 0.5, pool);
   }
-}
-
-void add_pretension_work(Scene& s, ThreadPool& pool) {
-  for (PlyBody& ply : s.plies)
-    if (ply.load.empty()) ply.last_load_work = 0.0; // where no pressure has set it
-  if (s.time - s.dt >= end_of_rise(s) || s.step == 0 || !has_any(s)) return;
-  const std::vector<std::vector<Vec3>> before = places_before(s);
-  add_stored(s, before, 0.5, pool);
-  set_pretension(s, s.time - s.dt);
-  add_stored(s, before, -0.5, pool);
   set_pretension(s, s.time);
+  s.tightened_until = s.time;
 }
 
 } // namespace plyform

@@ -105,7 +105,7 @@ void start(Scene& s, ThreadPool& pool) {
 std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   bool searched = false;
   move_tools(s);
-  set_pretension(s, s.time);
+  raise_pretension(s, pool);
   update_thickness(s, pool);
   update_temperatures(s, pool);
   if (auto stop = search_if_due(s, pool, searched)) return stop;
@@ -113,7 +113,6 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   if (due) update_stable_step(s, pool);
   follow_folds(s, pool, searched);
   element_and_contact_forces(s, pool);
-  add_pretension_work(s, pool);
   filter_forces(s);
   if (due || s.step % contacts_every == 0 ||
       largest_displacement(s) - s.bound_displacement > 0.5 * s.bound_margin)
