@@ -3,6 +3,7 @@
 
 #include "base/text.hpp"
 #include "core/model/motion.hpp"
+#include "core/run/enclosures.hpp"
 #include "core/run/rim_forces.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/limit_pressure.hpp"
@@ -140,8 +141,9 @@ std::vector<std::string> doubts_of_motion(const Scene& s, const Frame& last) {
   for (auto* more : {&doubts_of_places, &doubts_of_grippers})
     for (std::string& doubt : more(s, last))
       found.push_back(std::move(doubt));
-  for (std::string& doubt : doubts_of_rims(s))
-    found.push_back(std::move(doubt));
+  for (auto* more : {&doubts_of_enclosures, &doubts_of_rims})
+    for (std::string& doubt : more(s))
+      found.push_back(std::move(doubt));
   return found;
 }
 
