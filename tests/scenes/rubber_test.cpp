@@ -201,6 +201,19 @@ TEST(Rubber, ClampedRoundMembraneIsBlownToTwiceAtItsApex) {
   blow_up(3.0, 1.87900, 0.01, 1.95, 2.2);
 }
 
+// A twentieth less than the largest pressure is borne: the test above; a tenth more is not.
+TEST(Rubber, PressureBeyondItsLimitPointIsNamed) {
+  const double p = 1.1 * 1.879 * mu * thickness / radius;
+  const RunResult run = run_case(balloon(6.0, p), 1, {});
+  EXPECT_NE(run.summary.status, "done");
+  std::string said = run.summary.message;
+  for (const std::string& doubt : run.summary.doubts)
+    said += doubt;
+  EXPECT_NE(said.find("more than ply ply1 bears"), std::string::npos) << said;
+  EXPECT_NE(said.find("the limit point"), std::string::npos) << said;
+  EXPECT_EQ(said.find("yarns"), std::string::npos) << said;
+}
+
 TEST(Rubber, GivesTheSameBitsForAnyNumberOfThreads) {
   Case data = balloon(8.0, 0.01);
   data.solver.duration = 0.005;
