@@ -30,6 +30,7 @@ import rich_cases
 from rich_cases import at, places, text_of
 
 MOST_S, MOST_KB = 60, 2_000_000
+RUN_S = 30  # a run that takes longer is given up: minute steps are no fault
 DENSEST, BALANCE = 0.9069, 0.01
 NO_NUMBER = re.compile(r"(?<![\w.\"'/])[-+]?(nan|inf|unknown|(minus )?endless)\b"
                        r"(?=[ ,;)%]*(N|mm|s|deg|%|times|to|or|,|\)|$))")
@@ -42,9 +43,9 @@ OTHERS = [0, 0.0, -1.0, 1, 1e-300, 1e300, -1e300, float("inf"), float("nan"), Tr
 class Ended:
     """How a program ended, what it said and took."""
 
-    def __init__(self, command: list, folder: Path):
+    def __init__(self, command: list, folder: Path, most_s: int = MOST_S):
         def limit() -> None:
-            resource.setrlimit(resource.RLIMIT_CPU, (MOST_S, MOST_S + 5))
+            resource.setrlimit(resource.RLIMIT_CPU, (most_s, most_s + 5))
 
         begin = time.monotonic()
         with (folder / "out").open("wb+") as out:
@@ -221,7 +222,7 @@ class Tries:
 
     def __init__(self, program: Path, folder: Path, say: bool):
         self.program, self.folder, self.say = program, folder, say
-        self.count, self.codes, self.failed, self.slowest = 0, {}, 0, 0.0
+        self.count, self.codes, self.failed, self.given_up, self.slowest = 0, {}, 0, 0, 0.0
 
     def keep(self, what: str, words: str, text: str, said: str) -> None:
         self.failed += 1
@@ -253,7 +254,10 @@ class Tries:
         text = text_of(case)
         file.write_text(text, errors="replace")
         (out / "summary.json").unlink(missing_ok=True)
-        ended = Ended([self.program, "run", file, "-o", out], self.folder)
+        ended = Ended([self.program, "run", file, "-o", out], self.folder, RUN_S)
+        if ended.cpu_s > 0.9 * RUN_S:  # a signal, after which the run ends in order
+            self.given_up += 1
+            return False
         if not self.ended(name, words, ended, text) or not (out / "summary.json").is_file():
             return False
         summary = json.loads((out / "summary.json").read_text())
@@ -315,7 +319,8 @@ def main() -> int:
             ended += tries.run(name, spoiler.at_an_end(quick(case)), case)
         else:
             tries.check(name, "; ".join(spoiler.edit(case) for _ in range(dice.choice([1, 1, 1, 2, 2, 3])) if case), case)
-    print(f"{tries.count} tries{f', {ended} ran to the end' if options.kind == 'runs' else ''}, exit codes "
+    runs = f", {ended} ran to the end, {tries.given_up} given up after {RUN_S} s" if options.kind == "runs" else ""
+    print(f"{tries.count} tries{runs}, exit codes "
           f"{dict(sorted(tries.codes.items()))}, the slowest {tries.slowest:.1f} s; {tries.failed} faults"
           f"{f' in {tries.folder}' if tries.failed else ''}")
     return 1 if tries.failed else 0
