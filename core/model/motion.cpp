@@ -110,6 +110,16 @@ double largest_pressure_on(const Case& data, std::size_t ply) {
   return sum;
 }
 
+std::vector<Enclosure> enclosures_of(const Case& data) {
+  std::vector<Enclosure> found;
+  for (std::size_t i = 0; i + 1 < data.loads.size(); ++i) {
+    const PressureLoad &one = data.loads[i], &other = data.loads[i + 1];
+    if (one.entry == other.entry && one.ply != other.ply && one.side != other.side)
+      found.push_back({one.ply, other.ply, &one});
+  }
+  return found;
+}
+
 double force_share(double t, double duration) {
   return smooth_step(1.0, t, force_rise * duration);
 }

@@ -49,6 +49,15 @@ std::optional<double> pressure_on(const Case& data, std::size_t ply, double t);
 /// N/mm^2 that all loads on a ply come to at most, whichever way they push.
 double largest_pressure_on(const Case& data, std::size_t ply);
 
+/// Two plies with a load between them.
+struct Enclosure {
+  int lower = 0, upper = 0;           ///< indices into Case::plies
+  const PressureLoad* load = nullptr; ///< of the two that it is, the one on `lower`
+};
+
+/// Of each [[load]] that has `between`; they point into Case::loads.
+std::vector<Enclosure> enclosures_of(const Case& data);
+
 /// Share of a force that has come up at time t (s) where it has no programme: of the preload of a
 /// spring.
 double force_share(double t, double duration);

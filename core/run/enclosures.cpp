@@ -2,6 +2,7 @@
 #include "core/run/enclosures.hpp"
 
 #include "base/node_normals.hpp"
+#include "core/model/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,22 +12,6 @@ namespace plyform {
 namespace {
 
 constexpr double deepest_dent = 0.25; // of the thickness: less is the depth of contact
-
-/// Two plies with a load between them.
-struct Enclosure {
-  int lower = 0, upper = 0; ///< indices into Case::plies
-  const PressureLoad* load = nullptr;
-};
-
-std::vector<Enclosure> enclosures_of(const Case& data) {
-  std::vector<Enclosure> found;
-  for (std::size_t i = 0; i + 1 < data.loads.size(); ++i) {
-    const PressureLoad &one = data.loads[i], &other = data.loads[i + 1];
-    if (one.entry == other.entry && one.ply != other.ply && one.side != other.side)
-      found.push_back({one.ply, other.ply, &one});
-  }
-  return found;
-}
 
 // Of the push on one sheet: `check` lets borders differ by what meshes need, some hundredths.
 constexpr double left_over = 0.05;

@@ -59,10 +59,11 @@ void add_stored(Scene& s, const std::vector<std::vector<Vec3>>& before, double t
 
 void raise_pretension(Scene& s, ThreadPool& pool) {
   const double from = s.tightened_until;
+  if (from >= end_of_rise(s)) return; // all of it is there
   const bool any = std::any_of(s.plies.begin(), s.plies.end(), [](const PlyBody& ply) {
     return has_pretension(ply.membrane.fabric);
   });
-  if (any && from < end_of_rise(s) && from < s.time) {
+  if (any && from < s.time) {
     const std::vector<std::vector<Vec3>> before = places_before(s);
     set_pretension(s, from);
     add_stored(s, before, -0.5, pool);

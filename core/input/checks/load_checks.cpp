@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/checks/load_checks.hpp"
 
+#include "core/model/motion.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -46,16 +48,14 @@ double longest_side(const FlatPly& ply) {
 
 void check_loads(const Case& scene, const CaseParts& parts, std::span<const FlatPly> plies,
                  Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i + 1 < scene.loads.size(); ++i) {
-    const PressureLoad &low = scene.loads[i], &high = scene.loads[i + 1];
-    if (low.entry != high.entry) continue; // the two of one that has `between`
-    const auto lower = static_cast<std::size_t>(low.ply),
-               upper = static_cast<std::size_t>(high.ply);
+  for (const Enclosure& enclosure : enclosures_of(scene)) {
+    const auto lower = static_cast<std::size_t>(enclosure.lower),
+               upper = static_cast<std::size_t>(enclosure.upper);
     const FlatPly &a = plies[lower], &b = plies[upper];
     const auto error = [&](const std::string& rule, const std::string& remedy) {
       diagnostics.error(parts.plies[upper].at, parts.plies[upper].item, scene.plies[upper].name,
                         fmt::format("encloses nothing with ply {}, as load.{}.between has it: {}",
-                                    scene.plies[lower].name, low.entry, rule),
+                                    scene.plies[lower].name, enclosure.load->entry, rule),
                         remedy);
     };
     const Off here = furthest_off(a, b), there = furthest_off(b, a);
