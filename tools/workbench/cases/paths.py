@@ -54,7 +54,10 @@ def names_a_file(key: tuple[str, ...], text: str, fabric: bool) -> bool:
 def checked(project: Project, path: Path, words: str) -> Path:
     """As it is and as plyform takes it, which resolves .. before links."""
     for way in (str(path), os.path.normpath(path)):
-        real = Path(os.path.realpath(way))
+        try:
+            real = Path(os.path.realpath(way))
+        except OSError as problem:  # a link that goes while it is followed
+            raise Refused(f"{words} is missing", 404) from problem
         if not real.is_relative_to(project.root) or real.is_relative_to(project.own):
             raise Refused(f"{words} leads out of the folder of this workbench: copy the file into it")
     try:
@@ -76,7 +79,7 @@ def is_file(path: Path) -> bool:
 def texts_of(project: Project, file: Path) -> Iterator[tuple[tuple[str, ...], str]]:
     try:
         data = toml_of(project.read(file, MOST_TEXT).decode("utf-8-sig"))
-    except (OSError, ValueError, RecursionError):
+    except (OSError, ValueError, RecursionError, Refused):
         return
     waiting = [((), data)]
     while waiting:

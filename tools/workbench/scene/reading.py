@@ -17,6 +17,7 @@ from .draft_tools import is_large
 from .readers import Worker, Workers
 
 MOST_KEPT = 20
+NO_FILE = 0, 0, 0  # the stamp of one that is missing
 DRAFTS = "drafts"  # files of the workbench's own
 MOST_FOLLOWED = 50
 PERIOD = 0.5  # s between two looks at the files of cases that pages look at
@@ -47,6 +48,8 @@ class CaseReading:
             raise Refused("the file has changed meanwhile: here it is anew", 409)
         name = self.project.relative(path)
         stamp = self.stamp(path)
+        if stamp[0] == (str(path), *NO_FILE):
+            raise Refused(f"{name} is missing", 404)
         self.follow(name, stamp)
         return name, stamp, path
 
@@ -59,7 +62,7 @@ class CaseReading:
             status = os.stat(file)
             return str(file), status.st_mtime_ns, status.st_size, status.st_ino
         except OSError:
-            return str(file), 0, 0, 0
+            return str(file), *NO_FILE
 
     def scene(self, name: str, version: str) -> bytes:
         name, stamp, path = self.asked(name, version)
@@ -113,9 +116,9 @@ class CaseReading:
         return said
 
     def sound(self, said: dict, path: Path, stamp: tuple) -> None:
-        self.without_fault(said)
-        if self.stamp(path) != stamp:
+        if self.stamp(path) != stamp:  # then it may have failed for that
             raise Refused("a file of the case has changed meanwhile", 409)
+        self.without_fault(said)
 
     @staticmethod
     def without_fault(said: dict) -> None:

@@ -95,6 +95,8 @@ class Project:
         since is refused. Raises Refused, OSError."""
         try:
             opened = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+        except FileNotFoundError as problem:
+            raise Refused(f"{self.relative(path)} is missing", 404) from problem
         except OSError as problem:
             if problem.errno != errno.ELOOP:
                 raise

@@ -40,10 +40,16 @@ def exchanged(folder: int, one: str, other: str) -> bool:
     raise OSError(code, os.strerror(code), other)
 
 
-def content(folder: int, name: str) -> bytes:
+def content(folder: int, name: str) -> bytes | None:
+    """None of a link, a folder, or what may not be read. Raises FileNotFoundError."""
     flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
-    with open(os.open(name, flags, dir_fd=folder), "rb") as file:
-        return file.read()
+    try:
+        with open(os.open(name, flags, dir_fd=folder), "rb") as file:
+            return file.read()
+    except FileNotFoundError:
+        raise
+    except OSError:
+        return None
 
 
 def identity(folder: int, name: str) -> tuple[int, int]:

@@ -35,6 +35,12 @@ export class CaseFile {
     }
   }
 
+  /** An answer about the file says that it is missing, whether or not that has been heard: it may be back. */
+  lost() {
+    this.gone = true;
+    return this.load();
+  }
+
   /** Does one thing after the other. */
   after(act) {
     const done = this.busy.then(act);
@@ -117,10 +123,11 @@ export class CaseFile {
   }
 }
 
-/** Asks for something again and again, never twice at once; of several wishes the last one counts. */
+/** Asks for something about a file again and again, never twice at once; of several wishes the last one
+ *  counts. `lost()` where the file is missing. */
 export class Latest {
-  constructor(act, wait = 60) {
-    Object.assign(this, { act, wait, wanted: false, going: false });
+  constructor(act, lost, wait = 60) {
+    Object.assign(this, { act, lost, wait, wanted: false, going: false });
   }
 
   ask() {
@@ -137,6 +144,7 @@ export class Latest {
       await this.act();
     } catch (problem) {
       if (problem.code === 409) this.ask(); // the file has changed meanwhile
+      else if (problem.code === 404) this.lost().catch(tell);
       else tell(problem);
     } finally {
       this.going = false;

@@ -37,9 +37,10 @@ class Setup {
     this.chosen = "case";
     this.folder = { cases: [], fabrics: [], files: [] };
     this.scene = null;
-    this.checked = new Latest(() => this.check());
-    this.drawn = new Latest(() => this.draw(true));
-    this.drawnWhole = new Latest(() => this.draw(false), 0);
+    const lost = () => this.main.lost();
+    this.checked = new Latest(() => this.check(), lost);
+    this.drawn = new Latest(() => this.draw(true), lost);
+    this.drawnWhole = new Latest(() => this.draw(false), lost, 0);
     this.make();
     listen("case", (event) => this.heard(event));
     listen("again", () => this.again());
