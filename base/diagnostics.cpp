@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/diagnostics.hpp"
 
+#include "base/format.hpp"
 #include "base/words.hpp"
-
-#include <fmt/format.h>
 
 namespace plyform {
 

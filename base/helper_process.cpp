@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/helper_process.hpp"
 
+#include "base/format.hpp"
+
 #include <cerrno>
 #include <clocale>
 #include <csignal>
 #include <exception>
-#include <fmt/format.h>
 #include <fstream>
 #include <locale>
 #include <new>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/outputs.hpp"
 
-#include <fmt/format.h>
+#include "base/format.hpp"
+
 #include <fstream>
 #include <string>
 

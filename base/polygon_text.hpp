@@ -2,11 +2,11 @@
 // Internal to base: words, numbers and lines of mesh files, and readers of formats.
 #pragma once
 
+#include "base/format.hpp"
 #include "base/polygon_file.hpp"
 #include "base/words.hpp"
 
 #include <cstdint>
-#include <fmt/format.h>
 #include <optional>
 #include <stdexcept>
 

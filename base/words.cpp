@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/words.hpp"
 
+#include "base/format.hpp"
+
 #include <charconv>
 #include <cstdint>
-#include <fmt/format.h>
 #include <limits>
 
 namespace plyform {

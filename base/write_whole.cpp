@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/write_whole.hpp"
 
+#include "base/format.hpp"
+
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <optional>
 #include <stdexcept>
 #include <system_error>

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/intersections.hpp"
 
+#include "base/format.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 #include <algorithm>
-#include <fmt/format.h>
 #include <optional>
 #include <stdexcept>
 #include <utility>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys, mistakes, and cases as they were checked.
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "base/thread_pool.hpp"
 #include "core/accuracy/error_model.hpp"
@@ -10,7 +11,6 @@
 #include "python/bindings.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

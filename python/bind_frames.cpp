@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // States of a run as arrays that share the memory of the C++ frame, and the difference of two.
+#include "base/format.hpp"
 #include "core/results/field_difference.hpp"
 #include "core/results/result_fields.hpp"
 #include "python/bindings.hpp"
 
-#include <fmt/format.h>
 #include <limits>
 #include <memory>
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A case before it runs, as arrays that share the memory of the C++ preview.
+#include "base/format.hpp"
 #include "core/input/keys/tool_mesh_cache.hpp"
 #include "core/setup/scene_preview.hpp"
 #include "python/bindings.hpp"
-
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

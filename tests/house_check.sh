@@ -72,11 +72,22 @@ breach "function of more than 60 lines" "$(
   ' "${cpp[@]}"
 )"
 
-# Arrows between rooms run one way: tests/rooms.txt.
+# fmt::format and fmt::print within plyform are those of base/format.hpp, which print numbers or words.
+breach "includes <fmt/format.h> in the place of base/format.hpp" "$(
+  grep -n '^#include <fmt/format.h>' "${housed[@]}" | grep -vE '^(\./)?base/format\.hpp:' || true
+)"
+
+# Arrows between rooms run one way: tests/rooms.txt. Of C++ by what is included, of the workbench by what its
+# Python and JavaScript import.
+mapfile -t workbench < <(of '^(\./)?tools/workbench/.*\.(py|js)$')
 breach "includes a file of a room that its own must not know (tests/rooms.txt)" "$(
   awk '
+    function meets(to, what) {
+      if (!(room in order)) print FILENAME ": stands in no room of tests/rooms.txt"
+      else if (to != room && !((room, to) in may)) print FILENAME ":" FNR ": " what
+    }
     FILENAME == "tests/rooms.txt" {
-      if ($0 ~ /^#/) next
+      if (!NF || $0 ~ /^#/) next
       order[$1] = ++rooms
       for (i = 2; i <= NF; ++i) may[$1, $i] = 1
       for (i = 2; i <= NF; ++i) if ($i in order) print "tests/rooms.txt:" FNR ": " $1 " -> " $i " runs back up"
@@ -87,11 +98,18 @@ breach "includes a file of a room that its own must not know (tests/rooms.txt)" 
       split($0, part, "\"")
       to = part[2]; sub(/\/[^\/]*$/, "", to)
       all = to; sub(/\/.*/, "/*", all)
-      if (!(room in order)) print FILENAME ": stands in no room of tests/rooms.txt"
-      else if (to != room && !((room, to) in may) && !((room, all) in may))
-        print FILENAME ":" FNR ": " part[2]
+      meets((room, all) in may ? room : to, part[2])
     }
-  ' tests/rooms.txt "${housed[@]}"
+    /^ *from (\.\.?|workbench\.)[a-z_.]* import / { # of a room, or of a file beside rooms
+      to = $2 ~ /^\.\./ ? substr(room, 1, match(room, /\/[^\/]*$/) - 1) : $2 ~ /^\./ ? room : "tools/workbench"
+      name = $2; sub(/^(\.+|workbench\.)/, "", name); sub(/\..*/, "", name)
+      meets(to "/" name in order ? to "/" name : to, $2)
+    }
+    match($0, /(from |import\()"workbench\/[^"]+"/) {
+      to = substr($0, RSTART, RLENGTH); sub(/^[^\/]*/, "tools/workbench/web", to); sub(/\/[^\/]*$/, "", to)
+      meets(to, to)
+    }
+  ' tests/rooms.txt "${housed[@]}" "${workbench[@]}"
 )"
 
 # Within a room headers make no circle, nor do sources, each taken with the header of its name.

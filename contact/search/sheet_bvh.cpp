@@ -2,6 +2,7 @@
 #include "contact/search/sheet_bvh.hpp"
 
 #include "base/cpu_features.hpp"
+#include "base/format.hpp"
 #include "contact/point_triangle.hpp"
 #include "contact/search/float_box.hpp"
 #include "contact/simd/point_face_kernel.hpp"
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/utility.h> // fit(), which BVH_model.h calls without including it
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

@@ -5,11 +5,11 @@
 // At a corner with unit directions u in, v out and the angle phi between them, a fillet of radius R
 // starts and ends R tan(phi/2) from the corner; its centre lies R away from its start, to the side
 // to which the profile turns.
+#include "base/format.hpp"
 #include "contact/shapes/tool_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

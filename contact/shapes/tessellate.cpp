@@ -2,11 +2,11 @@
 // Triangles of a tool, for pictures and the exact check of intersections. Nodes lie on the surface,
 // so curved parts are inscribed: a chord of length l deviates from a circle of radius R by
 // l^2/(8 R).
+#include "base/format.hpp"
 #include "contact/shapes/fill_polygon.hpp"
 #include "contact/shapes/shape_distance.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <numbers>

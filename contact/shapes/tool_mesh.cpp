@@ -3,6 +3,7 @@
 // outward and free of self-intersections. Signs by pseudo-normals are only right on such meshes.
 #include "contact/shapes/tool_mesh.hpp"
 
+#include "base/format.hpp"
 #include "contact/shapes/mesh_shape.hpp"
 #include "contact/shapes/split_polygons.hpp"
 
@@ -18,7 +19,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/assertions_behaviour.h>
 #include <algorithm>
-#include <fmt/format.h>
 #include <mutex>
 #include <stdexcept>
 #include <utility>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "contact/shapes/tool_mesh.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/accuracy/error_model.hpp"
 
+#include "base/format.hpp"
 #include "core/accuracy/error_numbers.hpp"
 #include "core/model/motion.hpp"
 #include "core/model/reach_ahead.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 namespace plyform {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "core/identify/fit_biaxial.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/choose_shear.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/shear_checks.hpp"
 #include "core/identify/shear_table.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/corrections.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

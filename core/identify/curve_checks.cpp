@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether a curve is one of monotonic loading from zero: curve_file.hpp.
+#include "base/format.hpp"
 #include "core/identify/curve_file.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <numeric>
 
 namespace plyform {

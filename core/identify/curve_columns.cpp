@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which column of a table a test needs: curve_table.hpp.
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/identify/curve_table.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/curve_table.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <fmt/format.h>
 #include <string_view>
 
 namespace plyform {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Disturbances of a curve in words: fit_quality.hpp.
+#include "base/format.hpp"
 #include "core/identify/fit_quality.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compression of yarns: fit_tension.hpp.
+#include "base/format.hpp"
 #include "core/identify/tension_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

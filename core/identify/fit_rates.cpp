@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/fit_rates.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/rated_law.hpp"
 #include "core/identify/shear_forms.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/fit_relaxation.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/linear_law.hpp"
 #include "core/identify/nonnegative.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

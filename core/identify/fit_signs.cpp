@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/fit_signs.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/shear_rows.hpp"
 #include "core/identify/stitch_load.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

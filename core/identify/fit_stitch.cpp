@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/fit_stitch.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/fit_signs.hpp"
 #include "core/identify/shear_rows.hpp"
 #include "core/identify/stitch_rows.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 namespace plyform {

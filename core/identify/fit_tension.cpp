@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/fit_tension.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/tension_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numeric>
 #include <stdexcept>
 

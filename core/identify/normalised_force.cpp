@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/normalised_force.hpp"
 
+#include "base/format.hpp"
+
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <numbers>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/shear_rows.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/measured_angle.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <numbers>
 #include <stdexcept>

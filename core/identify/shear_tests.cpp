@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/shear_tests.hpp"
 
+#include "base/format.hpp"
 #include "core/model/fabric_estimates.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 #include <stdexcept>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Three-point bending: bending_tests.hpp.
+#include "base/format.hpp"
 #include "core/identify/bending_tests.hpp"
 #include "core/identify/tension_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

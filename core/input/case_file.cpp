@@ -2,6 +2,7 @@
 // case.toml -> entries -> overrides -> check against the table of keys -> Case -> whole scene.
 #include "core/input/case_file.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/checks/scene_checks.hpp"
 #include "core/input/checks/sense_checks.hpp"
@@ -15,7 +16,6 @@
 #include "core/model/fabric_estimates.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <map>
 #include <set>
 #include <tuple>

@@ -4,13 +4,13 @@
 // The size of a triangle of area A is that of the uniform mesh of its kind with such triangles:
 // sqrt(2 A) where a square has two, sqrt(4 A) where it has four. A bisection divides it by
 // 2^(1/2), so that it ends between 2^(-1/4) and 2^(1/4) times what is wanted.
+#include "base/format.hpp"
 #include "core/mesh/bisection.hpp"
 #include "core/mesh/mesher_parts.hpp"
 #include "core/mesh/size_field.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 #include <stdexcept>
 

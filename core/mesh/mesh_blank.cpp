@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mesh/mesh_blank.hpp"
 
+#include "base/format.hpp"
 #include "core/mesh/mesher_parts.hpp"
 #include "core/mesh/size_field.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the mesh of a blank from STL, OBJ, PLY or OFF as a triangle soup. Triangles are
 // oriented anticlockwise and equal nodes merged (STL repeats them); any other defect is an error.
+#include "base/format.hpp"
 #include "base/polygon_file.hpp"
 #include "core/mesh/mesher_parts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 #include <numeric>
 #include <stdexcept>

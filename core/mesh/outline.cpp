@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of an outline before it is meshed. Points, sides and holes are numbered from 0 in the
 // messages, as in dotted paths of case-file keys; side k runs from point k to the next.
+#include "base/format.hpp"
 #include "core/mesh/mesher_parts.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -9,7 +10,6 @@
 #include <CGAL/convex_hull_2.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <functional>
 #include <limits>
 #include <optional>

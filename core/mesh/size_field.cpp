@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mesh/size_field.hpp"
 
+#include "base/format.hpp"
 #include "contact/shapes/fill_polygon.hpp"
 #include "core/mesh/mesher_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
 

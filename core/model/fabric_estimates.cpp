@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/model/fabric_estimates.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/model/reach_ahead.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 #include <vector>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/model/fabric_freedoms.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/model/fabric_estimates.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -4,6 +4,7 @@
 #include "core/results/checkpoint_file.hpp"
 
 #include "base/archive.hpp"
+#include "base/format.hpp"
 #include "base/names.hpp"
 #include "base/text.hpp"
 #include "base/write_whole.hpp"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fmt/format.h>
 #include <stdexcept>
 #include <string_view>
 

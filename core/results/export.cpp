@@ -2,6 +2,7 @@
 // States in formats that other programs read: VTK XML (.vtu), binary STL and CSV.
 #include "core/results/export.hpp"
 
+#include "base/format.hpp"
 #include "base/outputs.hpp"
 #include "base/write_whole.hpp"
 #include "core/results/replace_run.hpp"
@@ -9,7 +10,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <fmt/format.h>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>

@@ -7,11 +7,11 @@
 //   rms^2 = sum_i w_i d_i^2 / sum_i w_i                                                       (3)
 #include "core/results/field_difference.hpp"
 
+#include "base/format.hpp"
 #include "core/results/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
 

@@ -3,12 +3,12 @@
 // hdf5_reader.cpp only.
 #pragma once
 
+#include "base/format.hpp"
 #include "base/geometry.hpp"
 
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
-#include <fmt/format.h>
 #include <hdf5.h>
 #include <stdexcept>
 #include <string>

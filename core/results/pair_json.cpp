@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/pair_json.hpp"
 
+#include "base/format.hpp"
+
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/replace_run.hpp"
 
+#include "base/format.hpp"
 #include "base/outputs.hpp"
 #include "base/write_whole.hpp"
 #include "core/results/size_file.hpp"
 
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/result_writer.hpp"
 
+#include "base/format.hpp"
 #include "base/names.hpp"
 #include "base/outputs.hpp"
 #include "base/text.hpp"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/compile.h>
-#include <fmt/format.h>
 #include <functional>
 #include <iterator>
 #include <set>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/size_file.hpp"
 
+#include "base/format.hpp"
 #include "base/read_file.hpp"
 #include "base/words.hpp"
 #include "base/write_whole.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 #include <iterator>
 #include <stdexcept>
 

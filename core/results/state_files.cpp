@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "base/write_whole.hpp"
 #include "core/results/result_fields.hpp"
 
-#include <fmt/format.h>
 #include <stdexcept>
 #include <system_error>
 

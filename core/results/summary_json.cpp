@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // summary.json: the main numbers of each ply and tool, for sweeps and reports. Keys are written in
 // the order in which they appear here; docs/users/results.md describes them.
+#include "base/format.hpp"
 #include "core/results/pair_json.hpp"
 #include "core/results/result_fields.hpp"
 #include "core/results/statistics.hpp"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

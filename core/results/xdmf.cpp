@@ -4,10 +4,10 @@
 // 3 reader of VTK leaves such geometries empty. The file has one time series for each ply and each
 // tool in one collection. With one collection per time instead, the XDMF 2 reader would name the
 // blocks NAME, NAME[1], NAME[2] at successive times.
+#include "base/format.hpp"
 #include "core/results/result_fields.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

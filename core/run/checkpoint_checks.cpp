@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/checkpoint_checks.hpp"
 
+#include "base/format.hpp"
 #include "contact/shapes/mesh_shape.hpp"
 #include "core/model/motion.hpp"
 #include "core/solver/step_faults.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 #include <string_view>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/ply_motion.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/model/motion.hpp"
 #include "core/run/enclosures.hpp"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/ply_plausibility.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/model/motion.hpp"
 #include "core/results/statistics.hpp"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <numeric>

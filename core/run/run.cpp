@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/run.hpp"
 
+#include "base/format.hpp"
 #include "base/time_left.hpp"
 #include "base/version.hpp"
 #include "contact/intersections.hpp"
@@ -23,7 +24,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/run_diagnosis.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/run/sliding_ranges.hpp"
 #include "core/solver/force_kinds.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 namespace plyform {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/sliding_ranges.hpp"
 
+#include "base/format.hpp"
+
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/temperature_doubts.hpp"
 
+#include "base/format.hpp"
+
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 

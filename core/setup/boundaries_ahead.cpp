@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/boundaries_ahead.hpp"
 
+#include "base/format.hpp"
 #include "core/solver/attached_motion.hpp"
 #include "core/solver/stable_time_step.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/friction_ahead.hpp"
 
+#include "base/format.hpp"
 #include "core/model/motion.hpp"
 #include "core/model/reachable_temperature.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

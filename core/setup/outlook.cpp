@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/outlook.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/accuracy/error_model.hpp"
 #include "core/input/checks/motion_checks.hpp"
@@ -24,7 +25,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <numeric>
 #include <set>

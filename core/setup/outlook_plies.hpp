@@ -2,11 +2,10 @@
 // What is said of the plies of a scene before it is run.
 #pragma once
 
+#include "base/format.hpp"
 #include "core/solver/scene.hpp"
 
-#include <fmt/format.h>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace plyform {
@@ -14,9 +13,9 @@ namespace plyform {
 /// As Outlook::lines.
 using Lines = std::vector<std::string>;
 
-template <class... Arguments>
-void say(Lines& lines, fmt::format_string<Arguments...> text, Arguments&&... arguments) {
-  lines.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
+template <class... T>
+void say(Lines& lines, fmt::TextOf<T...> text, const T&... arguments) {
+  lines.push_back(fmt::format(text, arguments...));
 }
 
 /// Size, mesh, element and bending of each ply.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/prepare_case.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "base/thread_pool.hpp"
 #include "core/input/checks/unit_checks.hpp"
@@ -8,7 +9,6 @@
 #include "core/setup/size_ahead.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

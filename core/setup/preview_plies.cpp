@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/preview_plies.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/keys/schema.hpp"
 #include "core/mesh/mesh_ply.hpp"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <fmt/format.h>
 #include <map>
 #include <tuple>
 

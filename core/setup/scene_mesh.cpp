@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/scene_mesh.hpp"
 
+#include "base/format.hpp"
 #include "core/accuracy/error_model.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/results/checkpoint_file.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <map>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/scene_preview.hpp"
 
+#include "base/format.hpp"
 #include "base/thread_pool.hpp"
 #include "core/input/keys/choices.hpp"
 #include "core/input/keys/schema.hpp"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <fmt/format.h>
 #include <span>
 
 namespace plyform {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts of tools and of plies, and boundaries, as kinds of force.
+#include "base/format.hpp"
 #include "base/stopwatch.hpp"
 #include "core/solver/attached_motion.hpp"
 #include "core/solver/displacements.hpp"
@@ -7,7 +8,6 @@
 #include "core/solver/step_faults.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/limit_pressure.hpp"
 
+#include "base/format.hpp"
 #include "base/node_normals.hpp"
 #include "core/model/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -16,11 +16,11 @@
 //
 // Work by the trapezoidal rule, as of all forces: half of a step's motion times the forces at its
 // end (last_load_work, when they are computed), half times those at its begin (when it is taken).
+#include "base/format.hpp"
 #include "core/model/motion.hpp"
 #include "core/solver/force_kinds.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/step_faults.hpp"
 
+#include "base/format.hpp"
 #include "contact/intersections.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/limit_pressure.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 namespace plyform {

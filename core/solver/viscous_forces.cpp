@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What membranes and bending resist by rates, as kinds of force: steps, energies, words. Their
 // forces are among those of elements and bending, whose kernels compute them.
+#include "base/format.hpp"
 #include "core/solver/force_kinds.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/verification/bands.hpp"
 
+#include "base/format.hpp"
 #include "core/results/field_difference.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <functional>
 
 namespace plyform {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/verification/no_band.hpp"
 
+#include "base/format.hpp"
 #include "core/model/bending_resolution.hpp"
 #include "core/model/boundary.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <utility>

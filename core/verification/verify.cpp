@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/verification/verify.hpp"
 
+#include "base/format.hpp"
 #include "core/accuracy/error_model.hpp"
 #include "core/results/field_difference.hpp"
 #include "core/solver/scene.hpp"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <utility>
 
 namespace plyform {

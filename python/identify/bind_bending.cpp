@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bending and compression from measured curves: numbers in and out, which
 // python/plyform/_bending.py puts into words.
+#include "base/format.hpp"
 #include "core/identify/bending_tests.hpp"
 #include "core/identify/fit_tension.hpp"
 #include "python/identify/fit_parts.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

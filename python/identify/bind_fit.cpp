@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of a fabric from measured curves, and the curves that it should give: numbers in and out,
 // which python/plyform/_fit.py puts into words.
+#include "base/format.hpp"
 #include "core/identify/fit_shear.hpp"
 #include "core/identify/fit_tension.hpp"
 #include "core/identify/measured_angle.hpp"
@@ -9,7 +10,6 @@
 #include "python/identify/fit_parts.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

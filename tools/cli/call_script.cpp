@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Calls of the Python programs tools/study, studio, report, map, pattern and export.
+#include "base/format.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fmt/format.h>
 #include <optional>
 #include <sys/wait.h>
 #include <unistd.h>

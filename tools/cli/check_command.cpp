@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "base/thread_pool.hpp"
 #include "core/setup/outlook.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "core/results/ply_frame.hpp"
 #include "tools/cli/commands.hpp"
 
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

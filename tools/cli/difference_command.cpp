@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "core/results/field_difference.hpp"
 #include "core/results/result_fields.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <filesystem>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/ending_signals.hpp"
 
+#include "base/format.hpp"
+
 #include <csignal>
 #include <cstring>
-#include <fmt/format.h>
 #include <vector>
 
 namespace plyform {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plyform export: VTU, STL and CSV by the library, VTKHDF and glTF by the Python program
 // tools/export.
+#include "base/format.hpp"
 #include "core/results/export.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/progress_line.hpp"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <fmt/format.h>
 
 namespace plyform {
 

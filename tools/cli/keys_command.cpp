@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "core/input/case_file.hpp"
 #include "tools/cli/commands.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace plyform {

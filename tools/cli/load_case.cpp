@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "core/accuracy/error_model.hpp"
 #include "core/run/live_picture.hpp"
 #include "core/run/progress_file.hpp"
@@ -10,7 +11,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
 
 namespace plyform {
 PreparedCase load_case(const CaseArguments& arguments) {

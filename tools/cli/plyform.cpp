@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command line: plyform run | check | chart | studio | report | map | pattern | export |
 // difference | identify | theory | keys | version.
+#include "base/format.hpp"
 #include "base/outputs.hpp"
 #include "base/text.hpp"
 #include "base/version.hpp"
@@ -12,7 +13,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <exception>
-#include <fmt/format.h>
 #include <functional>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -158,7 +158,7 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
 
   CLI::App* print_version = app.add_subcommand("version", "print the version");
   commands.push_back({print_version, [] {
-                        fmt::print("plyform {}\n", version());
+                        plyform::fmt::print("plyform {}\n", version());
                         return 0;
                       }});
 }
@@ -171,9 +171,10 @@ int with_output_written(int code) {
   const std::string reason =
       errno != 0 ? ": " + std::generic_category().message(errno) : std::string();
   if (flushed && std::ferror(stdout) == 0) return code;
-  fmt::print(stderr,
-             "plyform: error: standard output cannot be written{}; what was printed is not whole\n",
-             reason);
+  plyform::fmt::print(
+      stderr,
+      "plyform: error: standard output cannot be written{}; what was printed is not whole\n",
+      reason);
   return code == exit_done ? exit_other : code;
 }
 
@@ -182,17 +183,18 @@ int run_chosen(const std::vector<Command>& commands) {
     for (const Command& command : commands)
       if (command.app->parsed()) return command.act();
   } catch (const ScoutStopped& e) {
-    fmt::print(stderr, "plyform: {}\n", printable(e.what()));
+    plyform::fmt::print(stderr, "plyform: {}\n", printable(e.what()));
     return exit_stopped;
   } catch (const WouldOverwrite& e) {
-    fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
+    plyform::fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
     return exit_case_wrong;
   } catch (const std::invalid_argument& e) { // an option's value that a library refuses
-    fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
+    plyform::fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
     return exit_case_wrong;
   } catch (const std::exception& e) {
     // with_output_written tells of standard output, if that was it
-    if (std::ferror(stdout) == 0) fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
+    if (std::ferror(stdout) == 0)
+      plyform::fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
   }
   return exit_other;
 }
@@ -213,7 +215,8 @@ int main(int argc, char** argv) {
   prepare_standard_streams();
   CLI::App app{"Forms stacks of woven and non-crimp fabric plies between rigid tools."};
   app.require_subcommand(1);
-  app.set_version_flag("--version", fmt::format("plyform {}", version()), "print the version");
+  app.set_version_flag("--version", plyform::fmt::format("plyform {}", version()),
+                       "print the version");
   app.footer("Exit codes: 0 done, 2 case, curve or options wrong, 3 the simulation stopped itself, "
              "1 else.");
   Arguments arguments;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/progress_line.hpp"
 
+#include "base/format.hpp"
+
 #include <algorithm>
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 

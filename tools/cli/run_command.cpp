@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "base/thread_pool.hpp"
@@ -16,7 +17,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>

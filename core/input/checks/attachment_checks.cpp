@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of springs and grippers that need the meshes of the plies.
+#include "base/format.hpp"
 #include "core/input/checks/scene_checks.hpp"
 #include "core/model/attachment.hpp"
 #include "core/model/boundary.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of boundaries that need the meshes of the plies.
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/checks/scene_checks.hpp"
 #include "core/model/boundary.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/checks/sense_checks.hpp"
 #include "core/model/usual_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <optional>
 
 namespace plyform {

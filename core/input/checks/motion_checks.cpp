@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/checks/motion_checks.hpp"
 
+#include "base/format.hpp"
 #include "core/input/checks/scene_checks.hpp"
 #include "core/input/checks/sense_checks.hpp"
 #include "core/input/checks/tool_overlap.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Warnings of meshes that are too coarse for the lengths of bending_resolution.hpp.
+#include "base/format.hpp"
 #include "core/input/checks/scene_checks.hpp"
 #include "core/model/bending_resolution.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/model/reach_ahead.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 #include <set>
 #include <stdexcept>
 #include <utility>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/checks/scene_checks.hpp"
 
+#include "base/format.hpp"
 #include "core/input/checks/load_checks.hpp"
 #include "core/input/checks/tool_overlap.hpp"
 #include "core/mesh/mesh_ply.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <optional>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/checks/sense_checks.hpp"
 
+#include "base/format.hpp"
 #include "core/input/checks/tool_overlap.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

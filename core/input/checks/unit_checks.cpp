@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/checks/unit_checks.hpp"
 
+#include "base/format.hpp"
 #include "core/input/dxf/dxf_outline.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/boundary.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <numbers>
 #include <stdexcept>

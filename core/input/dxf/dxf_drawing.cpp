@@ -2,6 +2,7 @@
 #include "core/input/dxf/dxf_drawing.hpp"
 
 #include "base/archive.hpp"
+#include "base/format.hpp"
 #include "base/helper_process.hpp"
 #include "base/text.hpp"
 #include "core/input/dxf/dxf_blocks.hpp"
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <dxflib/dl_creationadapter.h>
 #include <dxflib/dl_dxf.h>
-#include <fmt/format.h>
 #include <optional>
 #include <set>
 #include <stdexcept>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/dxf/dxf_outline.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
 #include "core/input/dxf/dxf_drawing.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 #include <numbers>
 #include <set>

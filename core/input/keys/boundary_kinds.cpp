@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/boundary_kinds.hpp"
 
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/motion_keys.hpp"
 #include "core/model/boundary.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/case_identity.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "base/version.hpp"
 #include "core/input/keys/overrides.hpp"
-
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

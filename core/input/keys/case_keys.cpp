@@ -2,12 +2,12 @@
 // The table of keys in words, for people, and in parts, for forms.
 #include "core/input/keys/case_keys.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/keys/schema.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace plyform {

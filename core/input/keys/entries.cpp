@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/entries.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/keys/overrides.hpp"
 #include "core/input/keys/schema_check.hpp"
-
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What laws of friction whose viscosity follows the temperature need of a case.
+#include "base/format.hpp"
 #include "core/input/keys/temperature_keys.hpp"
 #include "core/model/reachable_temperature.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <limits>
 
 namespace plyform {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of friction: [friction.NAME], their keys and their reading.
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/schema_case.hpp"
 #include "core/input/keys/temperature_keys.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -2,12 +2,12 @@
 #include "core/input/keys/given_values.hpp"
 
 #include "base/archive.hpp"
+#include "base/format.hpp"
 #include "base/read_file.hpp"
 #include "core/input/keys/overrides.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

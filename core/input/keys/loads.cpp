@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of plies: [[load]], its keys and its reading.
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/schema_case.hpp"
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <optional>
 
 namespace plyform {

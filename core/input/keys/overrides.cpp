@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/overrides.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/keys/schema_check.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clock of the process: [process].
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/schema_case.hpp"
 #include "core/input/keys/temperature_keys.hpp"
 #include "core/model/yarn_law.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -2,10 +2,9 @@
 // The table of keys of case and fabric files, and its rows for cases.
 #include "core/input/keys/schema_case.hpp"
 
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/temperature_keys.hpp"
-
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/schema_check.hpp"
 
+#include "base/format.hpp"
 #include "base/names.hpp"
 #include "base/text.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Values of keys that check_section found valid, in the program's units.
+#include "base/format.hpp"
 #include "core/input/keys/schema_check.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/sheet_laws.hpp"
 
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

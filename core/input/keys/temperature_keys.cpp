@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/temperature_keys.hpp"
 
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/model/reachable_temperature.hpp"
 #include "core/model/yarn_law.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

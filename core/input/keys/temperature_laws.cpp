@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How viscosities and elastic shear follow the temperature: keys and their reading.
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/temperature_keys.hpp"
-
-#include <fmt/format.h>
 
 namespace plyform {
 

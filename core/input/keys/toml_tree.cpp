@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/toml_tree.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/keys/toml_depth.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <fmt/format.h>
 #include <string_view>
 #include <toml++/toml.h>
 

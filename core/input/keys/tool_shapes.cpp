@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/tool_shapes.hpp"
 
+#include "base/format.hpp"
 #include "contact/shapes/self_meeting.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/overrides.hpp"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the blanks of a case file.
+#include "base/format.hpp"
 #include "core/input/dxf/dxf_outline.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/overrides.hpp"
@@ -8,7 +9,6 @@
 #include "core/mesh/mesh_blank.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

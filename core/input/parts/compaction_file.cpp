@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/parts/compaction_file.hpp"
 
+#include "base/format.hpp"
 #include "core/input/keys/compaction_keys.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/model/usual_ranges.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -2,6 +2,7 @@
 // Reads fabrics: laws of tension, shear and bending, as constants or tables.
 #include "core/input/parts/fabric_file.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/checks/sense_checks.hpp"
 #include "core/input/keys/key_member.hpp"
@@ -17,7 +18,6 @@
 #include "core/model/fabric_estimates.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <string_view>
 
 namespace plyform {

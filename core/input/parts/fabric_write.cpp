@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes a fabric file with another law. It is generated from its entries, not edited as text,
 // because a law may be in a table, an inline table or under dotted keys.
+#include "base/format.hpp"
 #include "core/input/keys/toml_tree.hpp"
 #include "core/input/parts/fabric_file.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <stdexcept>
 #include <string_view>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/parts/stitches.hpp"
 
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/stitch_keys.hpp"
 #include "core/input/parts/yarn_families.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads tools: position and motion; their shapes are in tool_shapes.cpp.
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/tool_shapes.hpp"
 #include "core/input/parts/case_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 

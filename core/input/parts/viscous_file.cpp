@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/parts/viscous_file.hpp"
 
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 
 namespace plyform {

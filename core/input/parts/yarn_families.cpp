@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/parts/yarn_families.hpp"
 
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/sheet_laws.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 
 namespace plyform {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the zones of blanks: parts with smaller elements.
+#include "base/format.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/parts/case_parts.hpp"
 #include "core/mesh/size_field.hpp"
 #include "core/mesh/tool_zone.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of the arguments of plyform identify and theory, and what they ask for.
+#include "base/format.hpp"
 #include "base/outputs.hpp"
 #include "base/text.hpp"
 #include "core/identify/test_columns.hpp"
@@ -8,7 +9,6 @@
 #include "tools/cli/identify/identify_rubber.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bending stiffnesses in words, as TOML and as CSV.
+#include "base/format.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
 
-#include <fmt/format.h>
 #include <limits>
 
 namespace plyform {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Yarns and crimps from biaxial tension curves: in words, as TOML and as CSV.
+#include "base/format.hpp"
 #include "core/identify/fit_biaxial.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
-
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

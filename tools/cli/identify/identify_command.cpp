@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plyform identify: measured curves -> law -> fabric file.
+#include "base/format.hpp"
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
@@ -9,7 +10,6 @@
 #include "tools/cli/progress_line.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <stdexcept>
 
 namespace plyform {

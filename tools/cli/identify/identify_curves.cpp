@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The curves that plyform identify is given: FILE or FILE:COLUMN, and what a curve of a shear test
 // is made ready with before a law is fitted to it.
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/identify/measured_angle.hpp"
 #include "core/identify/normalised_force.hpp"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

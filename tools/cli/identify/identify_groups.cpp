@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Specimens of two kinds: shear of both signs, with the stitch that they differ by; warp and weft.
+#include "base/format.hpp"
 #include "base/text.hpp"
 #include "core/identify/fit_signs.hpp"
 #include "core/identify/fit_stitch.hpp"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

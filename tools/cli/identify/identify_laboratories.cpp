@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plyform identify with the curves of several laboratories: a law of each, their mean and scatter,
 // and three fabric files.
+#include "base/format.hpp"
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "core/identify/laboratories.hpp"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

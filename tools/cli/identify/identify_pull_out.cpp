@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Friction over the Hersey number from pull-out tests: in words, as TOML of a case, and as CSV.
+#include "base/format.hpp"
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "core/identify/fit_pull_out.hpp"
@@ -7,7 +8,6 @@
 #include "tools/cli/identify/identify_rates.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

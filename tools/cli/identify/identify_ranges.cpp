@@ -2,7 +2,6 @@
 #include "tools/cli/identify/identify_ranges.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -2,12 +2,12 @@
 // Shear at several speeds, and relaxation, in words, as TOML and as CSV.
 #include "tools/cli/identify/identify_rates.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/fit_rates.hpp"
 #include "core/identify/fit_relaxation.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

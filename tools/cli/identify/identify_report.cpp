@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of shear, tension and compression in words, as TOML and as CSV.
+#include "base/format.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 namespace plyform {

@@ -2,11 +2,11 @@
 // The law of a sheet of rubber from tension curves: in words, as TOML and as CSV.
 #include "tools/cli/identify/identify_rubber.hpp"
 
+#include "base/format.hpp"
 #include "core/identify/fit_rubber.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace plyform {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plyform theory: fabric file -> the curve that a shear test should give.
+#include "base/format.hpp"
 #include "base/write_whole.hpp"
 #include "core/identify/stitch_load.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
-
-#include <fmt/format.h>
 
 namespace plyform {
 
