@@ -22,7 +22,7 @@ except ImportError as problem:
 FROM_SCENE = ("mesh = \"alternating\"\nelement_size = 12.0", "element_size = 30.0\nmesh_from = \"scene\"")
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path.insert(0, str(TOOLS))
-from workbench.server.arrays import unpacked  # noqa: E402
+from workbench.project.arrays import unpacked  # noqa: E402
 
 
 def formed(out: Path, asks: bool, change: tuple[str, str] = ("", "")) -> list[bytes]:

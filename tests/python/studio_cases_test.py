@@ -22,8 +22,8 @@ import websockets  # noqa: E402
 from workbench.scene.coarser import coarser  # noqa: E402
 from workbench.scene.readers import Worker  # noqa: E402
 from workbench.scene.reading import module_of  # noqa: E402
-from workbench.server.arrays import unpacked  # noqa: E402
-from workbench.server.project import Refused  # noqa: E402
+from workbench.project.arrays import unpacked  # noqa: E402
+from workbench.project.project import Refused  # noqa: E402
 
 TOOLS, PROGRAM = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 CASE = "first/case.toml"

@@ -19,7 +19,7 @@ except ImportError as problem:
     print("SKIPPED:", problem)
     sys.exit(77)
 from workbench.toml import edits as toml_edits, model as toml_model  # noqa: E402
-from workbench.server.project import Refused  # noqa: E402
+from workbench.project.project import Refused  # noqa: E402
 
 CASES = Path(sys.argv[2])
 KEYS = json.loads(subprocess.run([sys.argv[3], "keys", "--json"], capture_output=True, check=True).stdout)

@@ -12,9 +12,9 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, sys.argv[1])
-from workbench.server.events import Events  # noqa: E402
+from workbench.project.events import Events  # noqa: E402
 from workbench.processes.processes import MOST_ENDED, Processes  # noqa: E402
-from workbench.server.project import Project, Refused  # noqa: E402
+from workbench.project.project import Project, Refused  # noqa: E402
 
 PYTHON = sys.executable
 KEPT = ["-c", "import signal, sys, time\n"
@@ -152,9 +152,9 @@ def stops(folder):
 BEGINS = """import sys, time
 sys.path.insert(0, sys.argv[1])
 from pathlib import Path
-from workbench.server.events import Events
+from workbench.project.events import Events
 from workbench.processes.processes import Processes
-from workbench.server.project import Project
+from workbench.project.project import Project
 processes = Processes(Project.opened(Path(sys.argv[2])), Events())
 for word in "ab":
     processes.begin("run", word, [sys.executable, "-c", "import time\\ntime.sleep(2)\\nprint('end')"],

@@ -308,7 +308,7 @@ Promise.all([
   tried("fetch", () => fetch(`${there}/${token}/api/folder`).then((r) => r.text())),
   tried("fetch no-cors", () => fetch(`${there}/${token}/api/folder`, { mode: "no-cors" }).then((r) => r.text()).then((t) => t || "refused")),
   tried("fetch POST", () => fetch(`${there}/${token}/api/cases`, { method: "POST", mode: "no-cors", body: '{"name":"by_fetch"}' }).then(() => "sent")),
-  tried("img", () => image(`${there}/${token}/web/icon.svg`)), tried("script", () => script(`${there}/${token}/web/page/main.js`)),
+  tried("img", () => image(`${there}/${token}/web/icon.svg`)), tried("script", () => script(`${there}/${token}/web/main.js`)),
   tried("WebSocket", () => socket(`${there.replace("http", "ws")}/${token}/events`)), tried("iframe", () => frame(`${there}/${token}/`)),
   tried("form POST", form),
 ]).then(() => { window.tries = done; });

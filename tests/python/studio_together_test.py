@@ -16,7 +16,7 @@ from studio_server import Server  # skips
 
 sys.path.insert(0, sys.argv[1])
 from workbench.cases.merge import merged  # noqa: E402
-from workbench.server.project import Changed, Project  # noqa: E402
+from workbench.project.project import Changed, Project  # noqa: E402
 
 TOOLS, PROGRAM = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 SEEDS = int(sys.argv[3]) if len(sys.argv) > 3 else 200

@@ -12,8 +12,8 @@ from pathlib import Path
 
 from base.files import toml_of
 
-from ..server.events import Events
-from ..server.project import Changed, Project, Refused
+from ..project.events import Events
+from ..project.project import Changed, Project, Refused
 from ..toml import edits as toml_edits, rebase as toml_rebase
 from ..toml.model import Refers
 from .history import History

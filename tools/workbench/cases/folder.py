@@ -8,7 +8,7 @@ from pathlib import Path
 
 from base.files import toml_of
 
-from ..server.project import Project, Refused
+from ..project.project import Project, Refused
 from .paths import MOST_TEXT
 
 DEPTH = 6

@@ -9,7 +9,7 @@ from base.ending import Trouble
 from base.files import read_json
 
 from ..processes.launch import keep
-from ..server.project import Project
+from ..project.project import Project
 
 MOST_STEPS = 100
 MOST_BYTES = 8 << 20

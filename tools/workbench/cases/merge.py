@@ -7,7 +7,7 @@ from difflib import SequenceMatcher
 
 from base.ending import one_line
 
-from ..server.project import Changed
+from ..project.project import Changed
 
 MOST_COMPARED = 4_000_000  # pairs of lines; of longer texts what lies between their ends is one change
 MOST_SHOWN = 400  # characters of lines in a question

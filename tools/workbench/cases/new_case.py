@@ -8,7 +8,7 @@ from pathlib import Path
 
 from base.ending import TOOLS, one_line
 
-from ..server.project import Refused, plain_name
+from ..project.project import Refused, plain_name
 from ..toml import edits as toml_edits
 from .files import CaseFiles, parsed
 from .folder import kind_of_toml

@@ -10,7 +10,7 @@ from pathlib import Path
 from base.ending import one_line
 from base.files import toml_of
 
-from ..server.project import Project, Refused
+from ..project.project import Project, Refused
 
 MOST_TEXT = 4 << 20  # bytes of a case or fabric file
 NO_FOLDERS = ("scene", "element_size")  # values of mesh_from

@@ -17,9 +17,9 @@ from base.ending import one_line
 from ..cases.files import CaseFiles, parsed
 from ..cases.folder import KINDS, kind_of_toml
 from ..cases.paths import paths_inside
+from ..project.project import Refused
 from ..results.listing import check_links
-from ..server.project import Refused
-from ..server.studio import Studio
+from ..studio import Studio
 
 OF_DRAWINGS = {"1": "inch", "2": "foot", "4": "mm", "5": "cm", "6": "m", "14": "dm"}  # $INSUNITS, as the program knows it
 MOST_HEADER = 1 << 20  # bytes of a drawing in which its unit stands

@@ -8,9 +8,8 @@ import shutil
 from pathlib import Path
 
 from ..cases.folder import KINDS
-from ..server.guard import Refusal
-from ..server.project import Changed, Project, Refused, named, plain_name
-from ..server.swap import exchanged
+from ..project.project import Changed, Project, Refused, named, plain_name
+from ..project.swap import exchanged
 
 SPARE = 64 << 20  # bytes that stay free on the disk
 
@@ -94,5 +93,5 @@ def clear(project: Project) -> None:
 def length_of(headers) -> int:
     told = headers.get("content-length", "0")
     if not told.isdigit():
-        raise Refusal(400, "Content-Length is no number")
+        raise Refused("Content-Length is no number", 400)
     return int(told)

@@ -19,9 +19,9 @@ from pathlib import Path
 
 from base.ending import one_line
 
-from ..server.events import Events
-from ..server.project import Project, Refused
-from ..server.watch import watch
+from ..project.events import Events
+from ..project.project import Project, Refused
+from ..project.watch import watch
 from .launch import MAY_ASK
 from .records import LIVE, Records
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from base.ending import one_line
 
-from ..server.project import Refused
+from ..project.project import Refused
 from .launch import asked, keep
 from .seal import Seal
 

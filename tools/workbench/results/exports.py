@@ -9,7 +9,7 @@ from pathlib import Path
 from base.ending import one_line
 
 from ..cases.paths import paths_inside
-from ..server.project import Project, Refused
+from ..project.project import Project, Refused
 from .listing import check_links
 
 STATES = ("vtu", "stl", "csv", "vtkhdf", "gltf")

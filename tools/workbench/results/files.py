@@ -12,8 +12,8 @@ from fastapi.responses import FileResponse, Response
 from base.ending import one_line
 from base.files import read_bytes
 
+from ..project.project import Project, Refused
 from ..runs.listing import SIGNS
-from ..server.project import Project, Refused
 
 MOST_FILES, DEPTH, MOST_DEPTH = 500, 3, 6
 MOST_DRAWING = 16 << 20  # bytes

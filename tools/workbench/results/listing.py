@@ -9,8 +9,8 @@ from pathlib import Path
 from base.ending import Trouble, one_line
 from base.summary_file import read_summary
 
+from ..project.project import Project, Refused
 from ..runs.listing import folders_of_results, mark_of
-from ..server.project import Project, Refused
 from .figures import KEY_FIGURES, driven_force, figures_of
 
 FILES = ("results.h5", "summary.json", "history.csv")  # that a report is made of

@@ -17,9 +17,9 @@ from base.ending import TOOLS, one_line
 from reporting.page import LETTERS
 
 from ..processes.records import LIVE
+from ..project.project import Refused
 from ..runs.listing import mark_of
-from ..server.project import Refused
-from ..server.studio import Studio
+from ..studio import Studio
 from .listing import FILES, check_links
 
 KEY = re.compile(r"[0-9a-f]{32}")

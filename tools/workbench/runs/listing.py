@@ -17,7 +17,7 @@ from base.summary_file import read_summary
 
 from ..processes.processes import Processes
 from ..processes.records import LIVE
-from ..server.project import OWN, Project
+from ..project.project import OWN, Project
 
 STATES = ("queued", "starting", "running", "done", "doubtful", "stopped", "interrupted", "failed", "killed",
           "taken out", "damaged")

@@ -12,9 +12,9 @@ from base.ending import Trouble
 from base.files import MIB, read_bytes
 from base.results_file import Broken, Results, read_results
 
+from ..project.arrays import Arrays, unpacked
+from ..project.project import Refused
 from ..scene.coarser import coarser
-from ..server.arrays import Arrays, unpacked
-from ..server.project import Refused
 
 ASK, PICTURE = "picture.ask", "picture.bin"
 MOST_PICTURE = 1024 * MIB

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from base.ending import TOOLS
 
-from ..server.project import Refused
+from ..project.project import Refused
 
 WORKER = Path(__file__).resolve().parent / "reader.py"
 LIMIT = 60.0  # s for one answer

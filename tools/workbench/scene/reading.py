@@ -11,8 +11,8 @@ from base.ending import Trouble
 
 from ..cases.files import CaseFiles, version_of
 from ..cases.paths import MOST_TEXT, paths_inside
-from ..server.project import Refused
-from ..server.watch import watch
+from ..project.project import Refused
+from ..project.watch import watch
 from .draft_tools import is_large
 from .readers import Worker, Workers
 

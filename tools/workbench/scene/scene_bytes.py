@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from ..server.arrays import Arrays
+from ..project.arrays import Arrays
 from .coarser import coarser
 from .draft_tools import StandIn
 

@@ -14,9 +14,9 @@ from base.ending import Mistake, Trouble, one_line, place_of, words_of
 from base.files import is_file
 from reporting.page import THREE, WEB as REPORT_WEB, json_in_script
 
+from ..project.project import Changed
+from ..studio import Studio
 from .guard import HEADERS, Refusal
-from .project import Changed
-from .studio import Studio
 
 WEB = Path(__file__).resolve().parents[1] / "web"
 CODEMIRROR = Path("/usr/share/javascript/codemirror")
@@ -73,7 +73,7 @@ def page_and_policy() -> tuple[str, str]:
              for name in sorted(file.relative_to(SHELVES[shelf]).as_posix() for file in SHELVES[shelf].rglob("*.js"))}
     imports = str(json_in_script({"imports": names}))
     digest = base64.b64encode(hashlib.sha256(imports.encode()).digest()).decode()
-    text = (WEB / "page/workbench.html").read_text(encoding="utf-8").replace("{{ imports }}", imports)
+    text = (WEB / "workbench.html").read_text(encoding="utf-8").replace("{{ imports }}", imports)
     policy = HEADERS["Content-Security-Policy"].replace("script-src 'self'", f"script-src 'self' 'sha256-{digest}'")
     return text, policy
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 from base.ending import Trouble
 
-from .project import Project
+from ..project.project import Project
 
 
 @contextmanager

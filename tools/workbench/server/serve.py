@@ -10,18 +10,12 @@ import uvicorn
 
 from base.ending import Trouble
 
-from ..cases import routes as case_routes
-from ..identify import routes as identify_routes
-from ..imports import routes as upload_routes
-from ..processes import routes as process_routes
-from ..results import routes as result_routes
-from ..runs import routes as run_routes
-from ..studies import routes as study_routes
+from ..project.project import Project
+from ..routes import cases, identify, imports, processes, results, runs, studies
+from ..studio import Studio
 from . import lock
 from .app import application
 from .guard import Guard
-from .project import Project
-from .studio import Studio
 
 LOOPBACK = "127.0.0.1"
 
@@ -42,8 +36,7 @@ def serve(project: Project, program: Path, port: int, quiet: bool) -> None:
 
 
 def routers(studio: Studio) -> list:
-    modules = (process_routes, case_routes, upload_routes, run_routes, result_routes, study_routes, identify_routes)
-    return [module.routes(studio) for module in modules]
+    return [subject.routes(studio) for subject in (processes, cases, imports, runs, results, studies, identify)]
 
 
 def bound(port: int) -> socket.socket:

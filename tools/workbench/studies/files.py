@@ -10,7 +10,7 @@ from pathlib import Path
 from base.ending import Trouble
 from base.files import is_file, parsed_toml, read_text
 
-from ..server.project import Project, Refused
+from ..project.project import Project, Refused
 
 MOST_PLACES, DEEPEST = 5000, 6
 LONGEST = 16 << 20   # bytes of a table that a page is shown

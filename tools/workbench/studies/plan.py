@@ -10,7 +10,7 @@ from tomlkit.exceptions import TOMLKitError
 from base.ending import one_line
 
 from ..cases.merge import merged
-from ..server.project import Changed, Refused
+from ..project.project import Changed, Refused
 
 PLAIN = ("title", "case", "accuracy", "method", "runs", "seed", "set")
 OF_VARY = ("name", "key", "keys", "each", "values", "names", "factors", "range", "count", "scale")

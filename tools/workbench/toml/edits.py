@@ -9,7 +9,7 @@ import re
 from base.ending import one_line
 from base.files import toml_of
 
-from ..server.project import Refused
+from ..project.project import Refused
 from . import cuts as toml_cuts, model as toml_model
 from .places import Places
 from .text import block_text, has_headers, header, key_text, value_text

@@ -7,7 +7,7 @@ import re
 
 from base.ending import one_line
 
-from ..server.project import Refused
+from ..project.project import Refused
 
 NAME = re.compile(r"[A-Za-z0-9_-]{1,80}")
 Refers = dict[str, list[str]]  # by pattern of the key: patterns of the tables of whose items it is a name

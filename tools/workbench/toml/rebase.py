@@ -7,7 +7,7 @@ import json
 from base.ending import one_line
 from base.files import toml_of
 
-from ..server.project import Changed
+from ..project.project import Changed
 from . import edits as toml_edits, model as toml_model
 
 MOST_SHOWN = 60  # characters of a value

@@ -3,7 +3,7 @@
 
 import tomlkit
 
-from ..server.project import Refused
+from ..project.project import Refused
 
 TABLES = ("ply", "tool", "boundary", "load", "pair", "zone", "family", "crossing", "stitch")  # lists that get headers
 WIDE = 80  # characters of a list in one line

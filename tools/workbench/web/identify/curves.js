@@ -2,8 +2,7 @@
 // The curves of an identification: files and columns, and a plot of them as they are.
 
 import { ask } from "workbench/page/server.js";
-import { button, element, tell } from "workbench/page/elements.js";
-import { select, labelled } from "workbench/studies/form.js";
+import { button, element, labelled, select, tell } from "workbench/page/elements.js";
 import { drawChart } from "workbench/page/chart.js";
 
 export class IdentifyCurves {

@@ -2,9 +2,8 @@
 // Identification: from measured curves to a fabric file, by plyform identify.
 
 import { ask, listen, send } from "workbench/page/server.js";
-import { button, element, tell } from "workbench/page/elements.js";
+import { button, element, labelled, select, tell } from "workbench/page/elements.js";
 import { eachOf, uploaded } from "workbench/page/uploads.js";
-import { select, labelled } from "workbench/studies/form.js";
 import { IdentifyCurves } from "workbench/identify/curves.js";
 import { IdentifyResult } from "workbench/identify/result.js";
 

@@ -2,8 +2,7 @@
 // What plyform identify has found: the law over the measured rows, residuals, limits of each number,
 // warnings; or why it has refused the curve, with the remedy.
 
-import { element } from "workbench/page/elements.js";
-import { select, labelled } from "workbench/studies/form.js";
+import { element, labelled, select } from "workbench/page/elements.js";
 import { drawChart } from "workbench/page/chart.js";
 import { fittingDigits, written } from "plyform/numbers.js";
 

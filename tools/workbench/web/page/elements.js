@@ -29,6 +29,17 @@ export function button(text, act, properties = {}) {
   return made;
 }
 
+/** Of choices [word, text]. */
+export function select(choices, value, properties) {
+  const made = element("select", properties, ...choices.map(([word, text]) =>
+    element("option", { value: word, textContent: text })));
+  made.value = value;
+  return made;
+}
+
+export const labelled = (text, control) => element("label", { className: "field" },
+  element("span", { textContent: text }), control);
+
 /** Shows what went wrong at the top of the page until the next thing goes well. */
 export function tell(problem) {
   const place = document.getElementById("trouble");

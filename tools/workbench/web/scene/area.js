@@ -2,11 +2,11 @@
 // The scene of a case with its controls: asked for anew after each edit; what was drawn last stays.
 
 import { element } from "workbench/page/elements.js";
+import { withoutKey } from "workbench/page/faults.js";
 import { unpacked } from "workbench/page/packed.js";
 import { sceneControls, strokeControl } from "workbench/scene/controls.js";
 import { SceneView } from "workbench/scene/view.js";
 import { askBytes } from "workbench/page/server.js";
-import { withoutKey } from "workbench/setup/problems.js";
 
 const short = (value) => Number(value.toFixed(Math.abs(value) < 10 ? 2 : 1)).toString();
 

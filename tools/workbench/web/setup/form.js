@@ -2,11 +2,11 @@
 // The form of one item of the outline, made from the table of keys.
 
 import { button, element, tell } from "workbench/page/elements.js";
+import { withoutKey } from "workbench/page/faults.js";
 import { booleanInput, dial, numberInput, numbersInput, selectInput, textInput } from "workbench/setup/inputs.js";
 import { defaultWords, fallbackOf, lastPart, ofColumn, valueAt } from "workbench/setup/keys_table.js";
 import { namesInput, outlinesInput, pairsInput, profileInput } from "workbench/setup/lists.js";
 import { filesFor, namesFor } from "workbench/setup/references.js";
-import { withoutKey } from "workbench/setup/problems.js";
 
 const NUMBERS = ["number", "integer"];
 const FABRIC = "fabrics.NAME"; // row of the table of keys

@@ -2,6 +2,7 @@
 // What check says of a case: mistakes and warnings by their keys, and their list.
 
 import { element } from "workbench/page/elements.js";
+import { withoutKey } from "workbench/page/faults.js";
 import { valueAt } from "workbench/setup/keys_table.js";
 
 const PLACE = /^(.*?):(\d+):\d+: (?:warning: |error: )?(.*)$/s; // file, line, words
@@ -24,9 +25,6 @@ export function faultsOf(answer) {
 /** Faults but those at keys that have another value since. */
 export const faultsStill = (faults, before, now) => faults.filter(({ key }) => !key ||
   JSON.stringify(valueAt(before, key)) === JSON.stringify(valueAt(now, key)));
-
-/** Without "KEY = ", where the key stands beside it. */
-export const withoutKey = ({ key, text }) => (key && text.startsWith(`${key} = `) ? text.slice(key.length + 3) : text);
 
 /** Faults at a key itself. */
 export const faultsAt = (faults, key) => faults.filter((one) => one.key === key);

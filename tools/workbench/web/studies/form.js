@@ -2,7 +2,7 @@
 // The form of a study file: what varies, which figures, which limits. Each change is saved at once.
 
 import { ask, send } from "workbench/page/server.js";
-import { button, element, tell } from "workbench/page/elements.js";
+import { button, element, labelled, select, tell } from "workbench/page/elements.js";
 import { madeUpon } from "workbench/page/upon.js";
 import { KeyChooser } from "workbench/studies/keys.js";
 
@@ -17,16 +17,6 @@ const ACCURACIES = [["", "as the case has it"], ["draft", "draft"], ["standard",
   ["reference", "reference"]];
 const ALWAYS = [{ name: "largest_shear_deg", words: "largest shear angle of any ply, °" }];
 const PICTURES = { window: ["x", "y"], map: ["x", "y", "figure"], scatter: ["x", "y"] };
-
-export function select(choices, value, properties) {
-  const made = element("select", properties, ...choices.map(([word, text]) =>
-    element("option", { value: word, textContent: text })));
-  made.value = value;
-  return made;
-}
-
-export const labelled = (text, control) => element("label", { className: "field" },
-  element("span", { textContent: text }), control);
 
 /** Values as they are typed: 0.1, 0.2 or [0, 45], [0, 90] or words. Throws Error. */
 export function valuesIn(text) {

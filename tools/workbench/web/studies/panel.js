@@ -2,8 +2,8 @@
 // Studies: those of the folder, and of one its form, its start, and what it has found.
 
 import { ask, listen, send } from "workbench/page/server.js";
-import { button, element, tell } from "workbench/page/elements.js";
-import { StudyForm, labelled, select } from "workbench/studies/form.js";
+import { button, element, labelled, select, tell } from "workbench/page/elements.js";
+import { StudyForm } from "workbench/studies/form.js";
 import { madeUpon } from "workbench/page/upon.js";
 import { StudyResults, countsInWords } from "workbench/studies/table.js";
 

@@ -2,9 +2,8 @@
 // What a study has found so far: how far it is, its table, a figure over a key, ranking, pictures.
 
 import { ask } from "workbench/page/server.js";
-import { element } from "workbench/page/elements.js";
+import { element, labelled, select } from "workbench/page/elements.js";
 import { drawChart } from "workbench/page/chart.js";
-import { select, labelled } from "workbench/studies/form.js";
 import { fittingDigits, written } from "plyform/numbers.js";
 
 const PERIOD = 1000; // ms, between two looks at results that are shown

@@ -15,12 +15,12 @@ from base.files import is_file, parsed_toml, read_text
 
 from ..cases.paths import paths_inside
 from ..processes.records import LIVE
-from ..server.one_answer import answered
-from ..server.project import Changed, Project, Refused, plain_name
-from ..server.studio import Studio
-from . import files as study_files, plan as study_plan
+from ..project.one_answer import answered
+from ..project.project import Changed, Project, Refused, plain_name
+from ..studies import files as study_files, plan as study_plan
+from ..studio import Studio
 
-WORKER = Path(__file__).resolve().parent / "worker.py"
+WORKER = Path(study_files.__file__).resolve().with_name("worker.py")
 
 
 def routes(studio: Studio) -> APIRouter:

@@ -3,7 +3,7 @@
 
 from fastapi import APIRouter
 
-from ..server.studio import Studio
+from ..studio import Studio
 
 
 def routes(studio: Studio) -> APIRouter:

@@ -16,11 +16,11 @@ from base.summary_file import doubts_and_advice, read_summary
 
 from ..cases.paths import paths_inside
 from ..processes.records import LIVE
-from ..server.project import Refused, plain_name
-from ..server.studio import Studio
-from ..server.watch import watch
-from . import live_states, files as run_files
-from .listing import RunList, mark_of_list
+from ..project.project import Refused, plain_name
+from ..project.watch import watch
+from ..runs import live_states, files as run_files
+from ..runs.listing import RunList, mark_of_list
+from ..studio import Studio
 
 PERIOD = 0.5  # s, of telling how far runs are
 BYTES = "application/octet-stream"

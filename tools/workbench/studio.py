@@ -9,11 +9,11 @@ from pathlib import Path
 
 from base.ending import TOOLS
 
-from ..cases.files import CaseFiles
-from ..processes.processes import Processes
-from ..toml.model import Refers
-from .events import Events
-from .project import Project, Refused
+from .cases.files import CaseFiles
+from .processes.processes import Processes
+from .project.events import Events
+from .project.project import Project, Refused
+from .toml.model import Refers
 
 
 @dataclass

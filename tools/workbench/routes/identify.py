@@ -13,11 +13,11 @@ from fastapi import APIRouter, Body
 from base.ending import Trouble, one_line
 from base.files import is_file, read_bytes
 
-from ..server.project import Project, Refused, plain_name
-from ..server.studio import Studio
+from ..identify import curve_files
+from ..identify.tests import TESTS
+from ..project.project import Project, Refused, plain_name
 from ..studies import files as study_files
-from . import curve_files
-from .tests import TESTS
+from ..studio import Studio
 
 MOST_CURVES = 50
 MOST_TEXT = 80  # characters of an option

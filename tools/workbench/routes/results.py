@@ -8,12 +8,12 @@ from fastapi import APIRouter, Body, Response
 from base.ending import one_line
 
 from ..processes.records import LIVE
-from ..server.project import Refused
-from ..server.studio import Studio
-from . import exports as result_exports, files as result_files
-from .figures import differences
-from .listing import ResultList
-from .report_pages import ReportPages, why_failed
+from ..project.project import Refused
+from ..results import exports as result_exports, files as result_files
+from ..results.figures import differences
+from ..results.listing import ResultList
+from ..results.report_pages import ReportPages, why_failed
+from ..studio import Studio
 
 MOST_COMPARED = 200
 

@@ -5,10 +5,10 @@ from fastapi import APIRouter, Body, Request
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
-from ..server.project import Refused
-from ..server.studio import Studio
-from . import uploads
-from .imports import imported
+from ..imports import uploads
+from ..imports.imports import imported
+from ..project.project import Refused
+from ..studio import Studio
 
 
 def routes(studio: Studio) -> APIRouter:

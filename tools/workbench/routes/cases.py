@@ -7,12 +7,12 @@ from collections.abc import Callable
 from fastapi import APIRouter, Body
 from fastapi.responses import JSONResponse, Response
 
+from ..cases import new_case
+from ..cases.files import CaseFiles, NoToml
+from ..cases.folder import Folder
+from ..project.project import Changed
 from ..scene.reading import CaseReading
-from ..server.project import Changed
-from ..server.studio import Studio
-from . import new_case
-from .files import CaseFiles, NoToml
-from .folder import Folder
+from ..studio import Studio
 
 
 def routes(studio: Studio) -> APIRouter:
