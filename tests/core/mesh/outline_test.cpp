@@ -97,7 +97,7 @@ TEST(BlankOutline, ElementSizeIsPositiveAndFitsTheBlank) {
   EXPECT_EQ(error_of(pierced({}), 0), "blank outline: element_size 0 mm must be greater than 0");
   EXPECT_EQ(error_of(pierced({}), -3), "blank outline: element_size -3 mm must be greater than 0");
   EXPECT_EQ(error_of(pierced({}), std::numeric_limits<double>::quiet_NaN()),
-            "blank outline: element_size nan mm must be greater than 0");
+            "blank outline: element_size unknown mm must be greater than 0");
   for (const MeshKind kind :
        {MeshKind::diagonal, MeshKind::crossed, MeshKind::fibres, MeshKind::free})
     EXPECT_EQ(error_of(pierced({}), 80.1, kind),
