@@ -141,8 +141,7 @@ def tools(page, files):
     page.item("blanks.sheet")
     page.until(lambda: "too coarse" in " ".join(page.texts(".fault-words.warning")), "elements are too coarse")
     page.key("blanks.sheet.element_size", "6")
-    page.until(lambda: page.text("#check-state").startswith("2 warning"), "no mistakes; punch, die, holder close",
-               300)  # a check has a scout run in it, beside other tests
+    page.until(lambda: page.text("#check-state").startswith("2 warning"), "no mistakes; punch, die, holder close")
     assert not page.texts(".fault-words:not(.warning)")
 
 
