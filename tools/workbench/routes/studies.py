@@ -20,8 +20,6 @@ from ..project.project import Changed, Project, Refused, plain_name
 from ..studies import files as study_files, plan as study_plan
 from ..studio import Studio
 
-WORKER = Path(study_files.__file__).resolve().with_name("worker.py")
-
 
 def routes(studio: Studio) -> APIRouter:
     router = APIRouter()
@@ -133,14 +131,14 @@ def reading(router: APIRouter, studio: Studio) -> None:
     def keys(case: str) -> dict:
         file = project.existing(case)
         paths_inside(project, file)
-        return answered(WORKER, "keys", file, project.root, studio.program, cwd=project.root)
+        return answered(study_files.WORKER, "keys", file, project.root, studio.program, cwd=project.root)
 
     @router.get("/study/check")
     def check(path: str, jobs: int = 1) -> dict:
         file = study_file(project, path)
         check_paths(project, file, parsed_toml(file, read_text(file)))
         output = study_files.output_of(project, file, study_files.look_through(project)[1])
-        return answered(WORKER, "check", file, output, studio.program, max(1, jobs), cwd=project.root)
+        return answered(study_files.WORKER, "check", file, output, studio.program, max(1, jobs), cwd=project.root)
 
     @router.get("/study/table")
     def table(folder: str, version: str = "") -> dict:

@@ -12,6 +12,7 @@ from base.files import is_file, parsed_toml, read_text
 
 from ..project.project import Project, Refused
 
+WORKER = Path(__file__).resolve().parent / "worker.py"
 MOST_PLACES, DEEPEST = 5000, 6
 LONGEST = 16 << 20   # bytes of a table that a page is shown
 LONGEST_STUDY = 1 << 20
