@@ -37,7 +37,7 @@ if /usr/bin/python3 -c 'import h5py, scipy' 2>/dev/null && [ -d "$work/frame" ];
 fi
 if /usr/bin/python3 -c 'import fastapi, uvicorn, websockets, tomlkit' 2>/dev/null; then
   "$prefix/bin/plyform" studio --help | grep -q 'studio \[-h\]'
-  [ -s "$prefix/share/plyform/tools/workbench/web/page/workbench.html" ]
+  [ -s "$prefix/share/plyform/tools/workbench/web/workbench.html" ]
 fi
 package=$prefix/lib/python3/dist-packages
 if [ -d "$package" ]; then # the module, if it was built
