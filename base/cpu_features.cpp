@@ -13,7 +13,7 @@ bool has_avx2() {
 }
 
 bool has_avx512() {
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(PLYFORM_SANITIZED) // its kernels take minutes to compile so
   static const bool has = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                           __builtin_cpu_supports("avx512dq") && has_avx2();
   return has;

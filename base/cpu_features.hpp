@@ -5,7 +5,7 @@
 namespace plyform {
 
 bool has_avx2();
-bool has_avx512(); ///< F, VL and DQ, on top of AVX2
+bool has_avx512(); ///< F, VL and DQ, on top of AVX2; not with sanitizers
 
 /// The copy of a kernel for this processor.
 template <class Kernel>
