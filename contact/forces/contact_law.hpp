@@ -75,9 +75,11 @@ struct ContactLaw {
   double spread = 0.0; ///< what its force in the plane of plies adds to the bound of (K), over it
   FrictionLawPtr sliding = {}; ///< instead of `friction`; null: Coulomb's law
   double process_time = 1.0;   ///< s of the process in each simulated second
-  double share = 1.0;    ///< of the area on which `sliding` acts: half of it in each of two passes
-  double memory = 0.0;   ///< s of the process, T of `sliding`
-  double film_gap = 0.0; ///< mm, gap up to which a film still fills it; 0: only what touches slides
+  double share = 1.0;  ///< of the area on which `sliding` acts: half of it in each of two passes
+  double memory = 0.0; ///< s of the process, T of `sliding`
+  /// mm, gap up to which faces slide on each other: which a film fills, or a vacuum holds; 0: only
+  /// what touches slides
+  double sliding_gap = 0.0;
 
   bool rubs() const { return sliding || friction > 0.0; } ///< whether it has friction at all
   /// Whether its friction goes by the speed.
@@ -143,7 +145,7 @@ inline ContactKernelLaw kernel_law(const ContactLaw& law, double dt) {
   k.max_depth = law.max_depth, k.per_depth2 = 1.0 / (law.max_depth * law.max_depth);
   k.damping_per_dt = dt > 0.0 ? law.damping / dt : 0.0;
   k.depth_limit = law.depth_limit();
-  k.film_gap = law.film_gap;
+  k.sliding_gap = law.sliding_gap;
   if (law.loading) k.loading = law.loading->table();
   if (law.unloading) k.unloading = law.unloading->table();
   return k;
@@ -188,6 +190,7 @@ struct ContactTotals {
   double friction = 0.0;    ///< N mm, work dissipated by sliding, since the start
   double damping = 0.0;     ///< N mm, work of normal damping, since the start
   double compaction = 0.0;  ///< N mm, lost through the thickness: not given back on unloading
+  double vacuum = 0.0;      ///< N mm, work of a vacuum that holds both sides on each other
   double penetration = 0.0; ///< deepest now, mm
   double deepest = 0.0;     ///< deepest since the start, mm
   double slip = 0.0;        ///< largest sliding distance of one contact while it was closed, mm
@@ -201,12 +204,13 @@ struct ContactTotals {
 /// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(ContactTotals& sums, F&& f) {
-  auto& [elastic, friction, damping, compaction, penetration, deepest, slip, sliding, touching,
-         step_ratio] = sums;
+  auto& [elastic, friction, damping, compaction, vacuum, penetration, deepest, slip, sliding,
+         touching, step_ratio] = sums;
   f("elastic", elastic);
   f("friction", friction);
   f("damping", damping);
   f("compaction", compaction);
+  f("vacuum", vacuum);
   f("penetration", penetration);
   f("deepest", deepest);
   f("slip", slip);

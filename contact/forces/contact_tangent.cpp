@@ -19,7 +19,7 @@ void set_stiffness(ContactTangent& spring, const ContactLaw& law, double area, d
 void append_tangents(const ToolPlyContact& contact, const SurfaceKinematics& ply, double margin,
                      const TangentFactors& factors, std::vector<ContactTangent>& springs) {
   for (const ToolPlyPoint& c : contact.points) {
-    if (latest_gap(c) > margin + contact.law.film_gap) continue;
+    if (latest_gap(c) > margin + contact.law.sliding_gap) continue;
     ContactTangent spring;
     spring.node = {c.node};
     spring.share = {1.0};
@@ -35,7 +35,7 @@ void append_tangents(const PlyPlyContact& contact, const SurfaceKinematics& slav
                      double margin, const TangentFactors& factors,
                      std::vector<ContactTangent>& springs) {
   for (const PlyPlyPoint& c : contact.points) {
-    if (latest_gap(c) > margin + contact.law.film_gap) continue;
+    if (latest_gap(c) > margin + contact.law.sliding_gap) continue;
     const Triangle& t = triangles[c.face];
     const std::array<double, 3> w = weights_of(c);
     ContactTangent spring;

@@ -112,7 +112,7 @@ PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
                                contact.face_distance.data());
   c.gap = std::sqrt(near.front().distance2) -
           contact.distance * thickness_ratio_at(contact, c, slave, master, triangles);
-  contact.list.free_until.push_back(path_length + (c.gap - contact.law.film_gap));
+  contact.list.free_until.push_back(path_length + (c.gap - contact.law.sliding_gap));
   deactivate(c);
   return c;
 }
@@ -195,7 +195,7 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
         c.side = before->side;
         c.area = before->area; // its springs store energy
         double& free_until = contact.list.free_until.back();
-        if (before->gap < contact.law.film_gap)
+        if (before->gap < contact.law.sliding_gap)
           c.gap = before->gap, free_until = std::min(free_until, path_length);
       }
       if (contact.law.sliding)
@@ -275,6 +275,9 @@ PlyPlyKernelContact kernel_view(KernelContext& k, double dt) {
     view.slave_share = c.slave_share;
   }
   view.compacted = c.compacted.empty() ? nullptr : c.compacted.data();
+  view.per_vacuum_gap = c.vacuum_gap > 0.0 ? 1.0 / c.vacuum_gap : 0.0;
+  view.slave_area = k.slave.area.data(), view.master_area = k.master.area.data();
+  view.vacuum = c.vacuum, view.vacuum_before = c.vacuum_before;
   if (c.law.by_temperature() && !k.slave.temperature.empty() && !k.master.temperature.empty()) {
     view.slave_celsius = k.slave.temperature.data();
     view.master_celsius = k.master.temperature.data();
@@ -308,6 +311,7 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
   sums.friction += added.friction;
   sums.damping += added.damping;
   sums.compaction += added.compaction;
+  sums.vacuum += added.vacuum;
   sums.penetration = added.penetration;
   sums.slip = std::max(sums.slip, added.slip);
   sums.touching = added.touching;
@@ -335,7 +339,7 @@ void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics
   // the area; as G G^T <= 2 G_w G_w^T + 2 G_g G_g^T, its G_w part is bounded by the normal one and
   // the G_g part is added here.
   for (const PlyPlyPoint& c : contact.points) {
-    if (latest_gap(c) > margin + contact.law.film_gap) continue;
+    if (latest_gap(c) > margin + contact.law.sliding_gap) continue;
     const Triangle& t = triangles[c.face];
     const double thickness = thickness_ratio_at(contact, c, slave, master, triangles);
     const ContactRow normal = 2.0 * c.area * row_of(contact.law, latest_gap(c), thickness);

@@ -21,6 +21,16 @@
 // The rotation `turn` and the nodal forces of a couple: face_rotation.hpp. (M) is work-conjugate to
 // (P), its moments cancel, and two sheets that move as one rigid body do not slip.
 //
+// Where a vacuum of q (N/mm^2) presses the sheets on each other, contact that just touches bears
+// it, and what is left of it pulls on what has opened by g = -p, with the stiffness k of both
+// passes:
+//   N -= b A q min(g / g_q, 1) min(2 - g / g_q, 1) for 0 < g < 2 g_q,  g_q = q_most / k     (V)
+// A being the smaller area of node and face, b is 1/2 of the larger one and 1 - A / (2 A_face) of
+// the smaller, so that both passes come to q. What opens no further than g_q stays conservative,
+// and nothing is pushed at rest, whatever the meshes, where pressures on nodes against forces at
+// other nodes dent both. Beyond g_q air pushes on the nodes instead
+// (core/solver/vacuum_contact.hpp). Friction feels what contact bears.
+//
 // A point keeps its face, without a search of the others, as long as none of them can be closer. A
 // face found late would be closer than the one before, and each such change would add energy.
 #pragma once
@@ -64,6 +74,9 @@ struct PlyPlyContact {
   ActiveList list;                  ///< of the points
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again
   std::vector<double> compacted; ///< mm, per slave node: greatest depth; of some laws only
+  double vacuum_gap = 0.0;       ///< mm, g_q of (V); 0: there is no vacuum between the two
+  /// N/mm^2, q of (V) in this step and in the one before
+  double vacuum = 0.0, vacuum_before = 0.0;
   ContactTotals sums;
   ContactFault fault;
   ContactTime time;
@@ -97,13 +110,14 @@ void each_member(PlyPlyPoint& point, F&& f) {
 template <class F>
 void each_member(PlyPlyContact& c, F&& f) {
   auto& [law, distance, slave_share, thickness_follows, points, faces, face_distance, list,
-         renew_depth, compacted, sums, fault, time] = c;
+         renew_depth, compacted, vacuum_gap, vacuum, vacuum_before, sums, fault, time] = c;
   f("points", points);
   f("faces", faces);
   f("face_distance", face_distance);
   f("list", list);
   f("renew_depth", renew_depth);
   f("compacted", compacted);
+  f("vacuum", vacuum);
   f("sums", sums);
 }
 

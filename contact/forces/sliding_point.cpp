@@ -125,7 +125,7 @@ void renew_film_areas(PlyPlyContact& contact, const SurfaceKinematics& slave,
                       const SurfaceKinematics& master, std::span<const Triangle> triangles) {
   // of the master's nodal area, the most that presses on one
   constexpr double finer = 4.0, least_share = 1e-3;
-  const double h = contact.distance, film = contact.law.film_gap;
+  const double h = contact.distance, film = contact.law.sliding_gap;
   const Rims rims(contact, slave, master, triangles,
                   std::sqrt(film * (2.0 * h + film))); // what still touches the rim from outside
   for (std::size_t i = 0; i < rims.of.size(); ++i) {

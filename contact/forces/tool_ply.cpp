@@ -79,7 +79,7 @@ double least_room_of(const ToolPlyContact& contact, const ToolBody& tool,
   const Vec3 at(hint.at[0], hint.at[1], hint.at[2]);
   const Vec3& x = ply.x[static_cast<std::size_t>(point.node)];
   return least_distance(hint, (to_tool_frame(tool, x) - at).norm()) -
-         half_thickness_at(contact, ply, point.node) - contact.law.film_gap;
+         half_thickness_at(contact, ply, point.node) - contact.law.sliding_gap;
 }
 
 /// Activates the points that may touch, and deactivates the others.
@@ -111,7 +111,7 @@ void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinemat
     c.gap = s.distance - half_thickness_at(contact, ply, c.node);
     normal_of(c) = s.normal;
     if (was_inactive) c.last_gap = c.gap - s.normal.dot(ply.motion[n] - tool_motion);
-    if (const double room = c.gap - contact.law.film_gap; room > 0.0)
+    if (const double room = c.gap - contact.law.sliding_gap; room > 0.0)
       contact.list.free_until[i] = path_length + room;
   }
 }
@@ -226,7 +226,7 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
   if (contact.law.slows()) contact.lately.resize(ply.x.size(), 0.0);
   const bool is_mesh = std::holds_alternative<MeshShapePtr>(tool.shape);
   if (is_mesh) contact.hints.resize(ply.x.size());
-  const double film = contact.law.film_gap;
+  const double film = contact.law.sliding_gap;
   std::size_t next_old = 0;
   SurfaceHint near; // of the node before: a start for one of which nothing is known
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
@@ -281,7 +281,7 @@ Vec3 tool_ply_forces(ToolBody& tool, std::span<ToolPlyContact> contacts,
 void add_tool_ply_stiffness(const ToolPlyContact& contact, const SurfaceKinematics& ply,
                             double margin, std::span<ContactRow> rows) {
   for (const ToolPlyPoint& c : contact.points) {
-    if (latest_gap(c) > margin + contact.law.film_gap) continue;
+    if (latest_gap(c) > margin + contact.law.sliding_gap) continue;
     const auto n = static_cast<std::size_t>(c.node);
     rows[n] +=
         ply.area[n] * row_of(contact.law, latest_gap(c), thickness_ratio_at(contact, ply, c.node));

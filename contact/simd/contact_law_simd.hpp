@@ -106,7 +106,7 @@ PLYFORM_INLINE double largest(Double4 a) {
 /// ContactTotals of the kernels: sums, maxima and minima over every fourth contact. With eight
 /// lanes the two quads are added one after the other, so that sums are those of four lanes.
 struct SimdTotals {
-  Double4 elastic{}, friction{}, damping{}, compaction{};
+  Double4 elastic{}, friction{}, damping{}, compaction{}, vacuum{};
   Double4 penetration{}, slip{};
   Double4 step_ratio = Double4{1e300, 1e300, 1e300, 1e300};
   int touching = 0;
@@ -224,7 +224,7 @@ struct SimdElastic {
 /// where `counted`; area: mm^2, of what is lost.
 PLYFORM_INLINE SimdElastic elastic_of(const ContactKernelLaw& k, Doubles area, Doubles depth,
                                       Longs counted, Doubles& compacted, SimdTotals& sums) {
-  if (k.film_gap > 0.0) depth = larger(depth, all(0.0)); // nothing presses across an open film
+  if (k.sliding_gap > 0.0) depth = larger(depth, all(0.0)); // nothing presses across a gap
   if (k.loading.pieces == 0) {
     const Doubles q = room_of(k, depth), rate = k.stiffness * depth;
     return {rate / (q * q), rate * depth / q};

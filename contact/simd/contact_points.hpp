@@ -52,7 +52,7 @@ struct ContactKernelLaw {
   double damping_per_dt;                  ///< c / dt, or 0
   double depth_limit;                     ///< mm, delta and what lies before the densest packing
   CompactionTable loading, unloading;     ///< unloading: no pieces where it goes back as it came
-  double film_gap;   ///< mm, up to which a film fills what has opened; 0: no film
+  double sliding_gap;                     ///< mm, of ContactLaw
   double* compacted; ///< mm, per slave node: greatest depth so far; null without `unloading`
   /// Returns |s| (mm) that is left of a stretch; null: Coulomb's law with one coefficient. Else
   /// `friction` only says that there is some.

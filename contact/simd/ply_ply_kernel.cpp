@@ -125,7 +125,7 @@ PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const s
     store_lanes(chunk.distance + first, foot.distance);
     store_lanes(chunk.distance2 + first, distance2);
     store_lanes(chunk.thickness + first, thickness);
-    add(chunk.touching, foot.distance < k.distance * thickness + k.film_gap, first);
+    add(chunk.touching, foot.distance < k.distance * thickness + k.sliding_gap, first);
     add(chunk.inside, foot.inside, first);
     add(chunk.above, foot.above, first);
     add(chunk.settled, settled, first);
@@ -139,7 +139,7 @@ PLYFORM_INLINE void store_feet(const Group& g, const PlyPlyKernelContact& k, con
   alignas(sizeof(Doubles)) double distance[lanes];
   store_lanes(distance, foot.distance);
   const Doubles thickness = each_lane([&](int i) { return thickness_at(k, *g.point[i]); });
-  const unsigned touching = bits_of(foot.distance < k.distance * thickness + k.film_gap);
+  const unsigned touching = bits_of(foot.distance < k.distance * thickness + k.sliding_gap);
   const unsigned inside = bits_of(foot.inside), above = bits_of(foot.above);
   for (int i = 0; i < lanes; ++i) {
     if (!has(some, i)) continue;
@@ -235,7 +235,7 @@ PLYFORM_INLINE void update_open_point(const PlyPlyKernelContact& k, std::int32_t
   if (at.memory.normal_force != 0.0 || at.memory.damping_force != 0.0 || s[0] != 0.0 ||
       s[1] != 0.0 || s[2] != 0.0)
     k.open(k.self, index, last_gap);
-  k.free_until[index] = k.path_length + (at.gap - k.film_gap);
+  k.free_until[index] = k.path_length + (at.gap - k.sliding_gap);
 }
 
 /// Stores what the forces have changed, and tells of points that are too deep or have gone through.
@@ -277,6 +277,19 @@ PLYFORM_INLINE Doubles film_temperatures(const PlyPlyKernelContact& k, const Gro
   return 0.5 * (each_lane([&](int i) { return k.slave_celsius[g.point[i]->node]; }) + master);
 }
 
+/// b of (V).
+PLYFORM_INLINE Doubles vacuum_share(const PlyPlyKernelContact& k, const Group& g,
+                                    const SimdWeights& w) {
+  if (k.per_vacuum_gap <= 0.0) return all(0.0);
+  const auto corner = [&](int j) {
+    return each_lane(
+        [&](int i) { return k.master_area[k.triangles[3 * std::int64_t{g.point[i]->face} + j]]; });
+  };
+  const Doubles a = corner(0), face = a + w.b * (corner(1) - a) + w.c * (corner(2) - a);
+  const Doubles own = each_lane([&](int i) { return k.slave_area[g.point[i]->node]; });
+  return 1.0 - 0.5 * smaller(own / face, all(1.0));
+}
+
 /// Third pass: forces of touching points.
 PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* active,
                           const std::int32_t* number, const Chunk& chunk, SimdTotals& sums) {
@@ -296,6 +309,7 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* acti
                thickness,
                load_compacted(k, g.point),
                k.stuck ? each_lane([&](int i) { return g.point[i]->by_angle; }) : all(1.0),
+               vacuum_share(k, g, w),
                film_temperatures(k, g, w),
                {held.of[3], last.of[0], last.of[1], {held.of[0], held.of[1], held.of[2]}},
                {}};
@@ -335,10 +349,9 @@ PLYFORM_INLINE PlyPlyKernelTotals sheet_kernel(const PlyPlyKernelContact& k) {
   for (int i = 0; i < k.active_count; i += Chunk::most)
     process_chunk(k, k.active + i,
                   k.active_count - i < Chunk::most ? k.active_count - i : Chunk::most, sums);
-  return {sum(sums.elastic),         sum(sums.friction),
-          sum(sums.damping),         sum(sums.compaction),
-          largest(sums.penetration), largest(sums.slip),
-          smallest(sums.step_ratio), sums.touching};
+  return {sum(sums.elastic),    sum(sums.friction),        sum(sums.damping),
+          sum(sums.compaction), sum(sums.vacuum),          largest(sums.penetration),
+          largest(sums.slip),   smallest(sums.step_ratio), sums.touching};
 }
 
 } // namespace

@@ -29,6 +29,9 @@ struct PlyPlyKernelContact : ContactKernelLaw {
   /// the slave has.
   const double *slave_ratio, *master_ratio;
   double slave_share;
+  double per_vacuum_gap;                        ///< 1/mm, 1 / g_q of (V); 0: there is none
+  double vacuum, vacuum_before;                 ///< N/mm^2, of PlyPlyContact
+  const double *slave_area, *master_area;       ///< mm^2, of the nodes, before forming
   const double *slave_celsius, *master_celsius; ///< degC, of the nodes; null: not asked for
   void* self;                                   ///< first argument of the callbacks
   /// Called if a point that carried force has opened; last_gap: mm, of the step before.
@@ -50,7 +53,7 @@ double distance_of_others(const PlyPlyPoint& point, const std::int32_t* triangle
 
 /// ContactTotals of this step over the points: sums, maxima and minima.
 struct PlyPlyKernelTotals {
-  double elastic, friction, damping, compaction, penetration, slip, step_ratio;
+  double elastic, friction, damping, compaction, vacuum, penetration, slip, step_ratio;
   int touching;
 };
 

@@ -17,10 +17,11 @@ namespace {
 /// The state of points that the computation of their forces changes.
 struct SimdPoints {
   Doubles area, gap, last_gap;
-  Doubles thickness; ///< r of contact/forces/contact_law.hpp
-  Doubles compacted; ///< mm, the greatest depth so far, if the law asks for it
-  Doubles by_angle;  ///< f_a of contact/forces/friction_law.hpp, if the law asks for it
-  Doubles celsius;   ///< degC, of the film between the plies there; NaN: not asked for
+  Doubles thickness;    ///< r of contact/forces/contact_law.hpp
+  Doubles compacted;    ///< mm, the greatest depth so far, if the law asks for it
+  Doubles by_angle;     ///< f_a of contact/forces/friction_law.hpp, if the law asks for it
+  Doubles vacuum_share; ///< b of (V)
+  Doubles celsius;      ///< degC, of the film between the plies there; NaN: not asked for
   SimdHistory memory;
   double* lately[lanes]; ///< of SlidingPlace, if the law asks for it
 };
@@ -33,6 +34,12 @@ struct SimdWeights {
 struct SimdForces {
   Vectors on_node, couple1, couple2; ///< of (C') on corners b and c
 };
+
+/// What of a vacuum pulls on points, by (V), over q.
+PLYFORM_INLINE Doubles pull_of(const PlyPlyKernelContact& k, Doubles gap) {
+  const Doubles open = larger(k.per_vacuum_gap * gap, all(0.0));
+  return smaller(open, all(1.0)) * larger(smaller(2.0 - open, all(1.0)), all(0.0));
+}
 
 /// Normal force and friction of points whose feet are known; `touch`: those that touch; fold:
 /// as of fold_ahead.
@@ -53,6 +60,15 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
   const Doubles pressure = normal_pressure(k, area, elastic.pressure, depth, opened, dp,
                                            per_thickness, touch, p.memory, sums);
   SimdForces f{p.memory.normal_force * normal, {zero, zero, zero}, {zero, zero, zero}};
+  Doubles borne = zero; // of a vacuum, N/mm^2
+  if (k.per_vacuum_gap > 0.0) {
+    const Doubles pull = p.vacuum_share * k.vacuum * pull_of(k, p.gap);
+    const Doubles before = known ? p.vacuum_share * k.vacuum_before * pull_of(k, p.last_gap) : pull;
+    const Doubles closed = known ? p.last_gap - p.gap : -dot(normal, motion);
+    f.on_node = f.on_node - area * pull * normal;
+    add(sums.vacuum, 0.5 * area * (pull + before) * closed);
+    borne = p.vacuum_share * k.vacuum - pull;
+  }
   Doubles stored2 = zero;
   if (k.friction > 0.0) {
     const Vectors across = cross(x.b, x.c);
@@ -66,8 +82,8 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
     SimdSliding by{p.by_angle, per_thickness, p.celsius, {}};
     for (int i = 0; i < lanes && k.lately; ++i)
       by.lately[i] = p.lately[i];
-    const Vectors tangential =
-        friction_of(k, area, pressure, normal, s + cross(turn, s), slip, by, touch, p.memory, sums);
+    const Vectors tangential = friction_of(k, area, pressure + borne, normal, s + cross(turn, s),
+                                           slip, by, touch, p.memory, sums);
     f.on_node = f.on_node + tangential;
     const Vectors couple = cross(tangential, arm); // -r x T of (M)
     const Doubles half = 0.5 * dot(couple, n);

@@ -131,12 +131,12 @@ PLYFORM_INLINE void press_group(const ToolPlyKernelContact& k, const ToolGroup& 
   const Vectors normal{n.of[0], n.of[1], n.of[2]};
   const Doubles last_gap = gaps.of[3], gap = gaps.of[2] - dot(normal, everywhere(k.advance));
   SimdHistory m{held.of[3], gaps.of[0], gaps.of[1], {held.of[0], held.of[1], held.of[2]}};
-  const Longs touch = g.real & (gap < k.film_gap);
+  const Longs touch = g.real & (gap < k.sliding_gap);
   const Doubles per_thickness = per_thickness_of(k, g);
   keep_smaller(sums.step_ratio,
                step_ratio_of(k, -gap * per_thickness, (last_gap - gap) * per_thickness));
   Longs loaded = touch | (m.normal_force != 0.0) | (m.damping_force != 0.0);
-  if (k.film_gap > 0.0) loaded |= square(m.s) > 0.0;
+  if (k.sliding_gap > 0.0) loaded |= square(m.s) > 0.0;
   const unsigned pressed = whole_quads(bits_of(g.real & loaded)); // what four lanes would compute
   if (pressed != 0) {
     const Longs counted = g.real & mask_of(pressed);

@@ -161,9 +161,9 @@ void check(const ActiveList& list, std::size_t count) {
 
 void check(const ContactTotals& sums) {
   expect(sound(sums.elastic) && sound(sums.friction) && sound(sums.damping) &&
-             sound(sums.compaction) && sound(sums.penetration) && sound(sums.deepest) &&
-             sound(sums.slip) && sums.sliding.finite() && sums.touching >= 0 &&
-             sums.step_ratio > 0.0,
+             sound(sums.compaction) && sound(sums.vacuum) && sound(sums.penetration) &&
+             sound(sums.deepest) && sound(sums.slip) && sums.sliding.finite() &&
+             sums.touching >= 0 && sums.step_ratio > 0.0,
          "sums of a contact");
 }
 

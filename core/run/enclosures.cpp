@@ -82,6 +82,21 @@ std::vector<T> means_around(const std::vector<Triangle>& triangles, const std::v
   return sums;
 }
 
+/// Of each node, whether it and those around it are inside the sheet: a clamp bends what is not.
+std::vector<char> inner_nodes(const PlyBody& ply) {
+  const std::vector<Triangle>& triangles = ply.membrane.triangles;
+  std::vector<char> on_rim(ply.x.size(), 0), inner(ply.x.size(), 1);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (ply.edges.faces_across[t][i] == no_face)
+        on_rim[at(triangles[t][(i + 1) % 3])] = on_rim[at(triangles[t][(i + 2) % 3])] = 1;
+  for (const Triangle& t : triangles)
+    if (std::any_of(t.begin(), t.end(), [&](int n) { return on_rim[at(n)]; }))
+      for (const int n : t)
+        inner[at(n)] = 0;
+  return inner;
+}
+
 /// mm, by which each node stands out.
 std::vector<double> dents_of(const PlyBody& ply) {
   const std::vector<Triangle>& triangles = ply.membrane.triangles;
@@ -99,12 +114,14 @@ std::vector<double> dents_of(const PlyBody& ply) {
 /// mm over the thickness, of the nodes of one ply that another of a pair presses.
 double deepest_dent_of(const Scene& s, int ply, int by) {
   const std::vector<double> dents = dents_of(s.plies[at(ply)]);
+  const std::vector<char> inner = inner_nodes(s.plies[at(ply)]);
   double most = 0.0;
   for (const PlyPair& pair : s.ply_pairs)
     for (const PlyContact& pass : pair.passes) {
       if (pass.slave != ply || pass.master != by) continue;
       for (const PlyPlyPoint& point : pass.contact.points)
-        if (latest_gap(point) < 0.0) most = std::max(most, dents[at(point.node)]);
+        if (latest_gap(point) < 0.0 && inner[at(point.node)])
+          most = std::max(most, dents[at(point.node)]);
     }
   return most / s.plies[at(ply)].thickness;
 }

@@ -128,7 +128,10 @@ void PlyContacts::list_arrays(Scene& s) {
 }
 
 void PlyContacts::add_energies(const Scene& s, ThreadPool&, Energies& e) {
-  each_pass(s, [&](const PlyContact& pass) { add_sums(pass.contact.law, pass.contact.sums, e); });
+  each_pass(s, [&](const PlyContact& pass) {
+    add_sums(pass.contact.law, pass.contact.sums, e);
+    e.external += pass.contact.sums.vacuum;
+  });
   each_edge_contact(
       s, [&](const PlyEdgeContact& edges) { add_sums(edges.contact.law, edges.contact.sums, e); });
 }

@@ -27,7 +27,7 @@ bool track_displacements(Scene& s) {
     if (t.far) continue;
     grow(t.max_displacement, (t.body.displacement - t.displacement_search).norm() + ahead);
   }
-  return largest_displacement(s) <= 0.5 * (s.skin - s.film_gap);
+  return largest_displacement(s) <= 0.5 * (s.skin - s.sliding_gap);
 }
 
 double path_length_ahead(const Scene& s, const ToolState& t) {

@@ -2,6 +2,7 @@
 #include "core/solver/make_contacts.hpp"
 
 #include "core/model/motion.hpp"
+#include "core/solver/vacuum_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +70,7 @@ void rub(const Case& data, int a, int b, double distance, ContactLaw& law) {
   law.sliding = named;
   law.process_time = data.process_time();
   law.memory = memory_share * data.solver.duration * law.process_time;
-  law.film_gap = std::min(named->spec().film_thickness(), thickest * distance);
+  law.sliding_gap = std::min(named->spec().film_thickness(), thickest * distance);
 }
 
 /// ContactLaw::spread: thickness over element size, squared. A contact at a node has gradients of 1
@@ -142,6 +143,11 @@ PlyContact make_pass(const Case& data, const std::vector<PlyBody>& plies, int a,
   pair.contact.thickness_follows = slave.thickness_acts || master.thickness_acts;
   pair.contact.distance -= nesting_of(slave, master);
   give_way(pair.contact.law, 0.5, {&slave, &master});
+  if (!pair.contact.law.loading) { // what gives way is as thick as pressure lets it
+    pair.contact.vacuum_gap = 0.5 * largest_vacuum(data, a, b) / pair.contact.law.stiffness;
+    pair.contact.law.sliding_gap =
+        std::max(pair.contact.law.sliding_gap, 2.0 * pair.contact.vacuum_gap);
+  }
   if (pair.contact.thickness_follows)
     pair.contact.law.spread = std::max(spread_of(slave), spread_of(master));
   return pair;
@@ -209,7 +215,7 @@ std::vector<PlyPair> make_pairs(const Case& data, const std::vector<PlyBody>& pl
       const PlyPlyContact& contact = pair.passes[0].contact;
       pair.edges.a = a, pair.edges.b = b;
       pair.edges.contact.law = contact.law;
-      pair.edges.contact.law.film_gap = 0.0;
+      pair.edges.contact.law.sliding_gap = 0.0;
       pair.edges.contact.law.loading = pair.edges.contact.law.unloading = nullptr;
       pair.edges.contact.distance = edge_distance(contact);
       pair.edges.contact.law.max_depth = deepest_of_edges / 0.5 * pair.edges.contact.distance;

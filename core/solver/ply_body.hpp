@@ -130,8 +130,11 @@ struct PlyCache {
   std::vector<Box3> patch_motion;  ///< mm, as of patch_motions, of the last step
   /// Arrays of reaction and contact forces that are not zero in this step, in fixed order.
   std::vector<const std::vector<Vec3>*> nodal_forces;
-  std::vector<Vec3> pull;      ///< N, of springs on each node; empty if none hangs on it
-  std::vector<Vec3> load;      ///< N, of pressures on each node; empty if there is none
+  std::vector<Vec3> pull; ///< N, of springs on each node; empty if none hangs on it
+  std::vector<Vec3> load; ///< N, of pressures on each node; empty if there is none
+  /// N/mm^2, positive upwards, on each node: what contact has of the vacuums that push the ply, by
+  /// core/solver/vacuum_contact.hpp; empty: there is none
+  std::vector<double> borne_load;
   double last_load_work = 0.0; ///< N mm, of these forces over the half of the step that led to them
   std::vector<double> last_ratio; ///< thickness_ratio in the step before
   std::vector<double> squeeze;    ///< N/mm, core/solver/thickness_forces.cpp; so below
@@ -154,8 +157,9 @@ void each_array(PlyCache& ply, F&& f) {
   auto& [x_search, max_displacement, path_length, fold_bound, fold_motion, occluded, ridges,
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
          thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
-         last_load_work, last_ratio, squeeze, spread, pressed, yarns_end, viscous_end, bending_end,
-         viscous_stepped, flow_factors, node_flow_factors, shear_factors, flow_time] = ply;
+         borne_load, last_load_work, last_ratio, squeeze, spread, pressed, yarns_end, viscous_end,
+         bending_end, viscous_stepped, flow_factors, node_flow_factors, shear_factors, flow_time] =
+      ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);

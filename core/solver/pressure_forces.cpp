@@ -5,9 +5,11 @@
 //
 //   f = p / 6 (x2 - x1) x (x3 - x1)                                                    (P)
 //
-// a third of p times area times normal. Its stiffness has blocks of p / 6 times the cross product
-// with the sides of the triangle: symmetric within a sheet, not at free edges. A sum of absolute
-// values bounds its eigenvalues (Gershgorin): a row of a node has, of each triangle, at most
+// a third of p times area times normal; of a vacuum between two plies only what contact leaves of
+// it there, with a stiffness of its own (core/solver/vacuum_contact.hpp). Its stiffness has blocks
+// of p / 6 times the cross product with the sides of the triangle: symmetric within a sheet, not at
+// free edges. A sum of absolute values bounds its eigenvalues (Gershgorin): a row of a node has, of
+// each triangle, at most
 //
 //   |p| / 6 (|x2 - x1| + |x3 - x2| + |x1 - x3|)                                        (K)
 //
@@ -19,6 +21,7 @@
 #include "base/format.hpp"
 #include "core/model/motion.hpp"
 #include "core/solver/force_kinds.hpp"
+#include "core/solver/vacuum_contact.hpp"
 
 #include <algorithm>
 
@@ -37,11 +40,15 @@ double half_work(const PlyBody& ply) {
   return sum;
 }
 
-/// (K) of each node: add(node, N/mm).
+/// (K) of each node, and what of a vacuum changes as its gap opens, on the node and from the face
+/// over it: add(node, N/mm).
 template <class Add>
 void each_row(const Scene& s, std::size_t p, const Add& add) {
   const double sixth = largest_pressure_on(s.data, p) / 6.0;
   const PlyBody& ply = s.plies[p];
+  if (const double opening = 2.0 * vacuum_stiffness(s, p); opening > 0.0)
+    for (std::size_t n = 0; n < ply.x.size(); ++n)
+      add(n, opening * ply.membrane.node_area[n]);
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];
     const double row = sixth * ((b - a).norm() + (c - b).norm() + (a - c).norm());
@@ -59,13 +66,14 @@ double PressureForces::place(const Scene& s, int task) {
 void PressureForces::run(Scene& s, int task) {
   if (!any_on(s, at(task))) return;
   PlyBody& ply = s.plies[at(task)];
-  const double sixth = pressure_on(s.data, at(task), s.time).value_or(0.0) / 6.0;
+  const double pressure = pressure_on(s.data, at(task), s.time).value_or(0.0);
   ply.load.assign(ply.x.size(), Vec3::Zero());
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];
-    const Vec3 force = sixth * (b - a).cross(c - a); // (P)
+    const Vec3 sixth = (b - a).cross(c - a) / 6.0; // (P)
     for (const int n : t)
-      ply.load[at(n)] += force;
+      ply.load[at(n)] +=
+          (pressure - (ply.borne_load.empty() ? 0.0 : ply.borne_load[at(n)])) * sixth;
   }
   ply.last_load_work = half_work(ply);
 }

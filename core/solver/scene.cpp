@@ -182,7 +182,7 @@ void set_lengths(Scene& s) {
   // A small skin makes searches frequent, a large one increases the number of points and faces
   // within reach (with its square): with a third of an element both costs are small.
   s.skin = s.data.contact.skin > 0.0 ? s.data.contact.skin : 0.3 * element;
-  s.skin = std::max(s.skin, 2.0 * s.film_gap);
+  s.skin = std::max(s.skin, 2.0 * s.sliding_gap);
   s.bound_margin = margin_in_thicknesses * thickness;
 }
 
@@ -191,10 +191,10 @@ void set_films(Scene& s) {
   const bool cools = s.data.process.cooling.has_value();
   for (const ToolState& tool : s.tools)
     for (const ToolPlyContact& contact : tool.contacts)
-      s.film_gap = std::max(s.film_gap, contact.law.film_gap);
+      s.sliding_gap = std::max(s.sliding_gap, contact.law.sliding_gap);
   for (const PlyPair& pair : s.ply_pairs)
     for (const PlyContact& pass : pair.passes) {
-      s.film_gap = std::max(s.film_gap, pass.contact.law.film_gap);
+      s.sliding_gap = std::max(s.sliding_gap, pass.contact.law.sliding_gap);
       PlyBody& master = s.plies[at(pass.master)];
       if ((pass.contact.law.has_film() || cools) && master.rim_distance.empty())
         master.rim_distance = rim_distances(master.edges, master.x0);

@@ -163,7 +163,7 @@ struct SceneModel {
   std::vector<PassPlace> pass_order;
   double element_size = 0.0; ///< mm, the smallest of the mean element sizes of plies that move
   double skin = 0.0;         ///< mm, that of the case, or from the element size
-  double film_gap = 0.0;     ///< mm, the largest ContactLaw::film_gap
+  double sliding_gap = 0.0;  ///< mm, the largest ContactLaw::sliding_gap
   /// mm: gap up to which open contacts count in the stable time step, which is computed again when
   /// anything has moved by half of it (core/solver/contact_rows.hpp)
   double bound_margin = 0.0;

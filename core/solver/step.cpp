@@ -15,6 +15,7 @@
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step_faults.hpp"
 #include "core/solver/time_step.hpp"
+#include "core/solver/vacuum_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -112,6 +113,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   const bool due = searched || s.step % elements_every == 0;
   if (due) update_stable_step(s, pool);
   follow_folds(s, pool, searched);
+  bear_vacuums(s);
   element_and_contact_forces(s, pool);
   filter_forces(s);
   if (due || s.step % contacts_every == 0 ||

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Vacuums between two plies, where these touch: contact bears them there ((V) of
+// contact/forces/ply_ply.hpp), and air pushes on nodes as far as their faces are open,
+//
+//   q min(max(g / g_q - 1, 0), 1)                                                             (N)
+//
+// which takes over from what pulls by (V) between g_q and 2 g_q.
+#pragma once
+
+#include "core/model/case.hpp"
+#include "core/solver/scene.hpp"
+
+namespace plyform {
+
+/// N/mm^2, the most that a vacuum between these two plies has; 0: there is none.
+double largest_vacuum(const Case& data, int a, int b);
+
+/// Sets PlyPlyContact::vacuum and PlyCache::borne_load, what (N) leaves out, of plies that a vacuum
+/// presses on each other, at the present positions. To be called at every step, after searches and
+/// before forces are computed.
+void bear_vacuums(Scene& s);
+
+/// N/mm^3: the most by which (N) changes on any node of a ply as its gap opens.
+double vacuum_stiffness(const Scene& s, std::size_t ply);
+
+} // namespace plyform
