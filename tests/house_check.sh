@@ -147,6 +147,24 @@ breach "files of a room include one another in a circle" "$(
   ' "${housed[@]}" | sort
 )"
 
+# Files that comments name, by any end of their path.
+breach "comment names a file that does not exist" "$(
+  printf '%s\n' "${files[@]}" | awk '
+    FILENAME == "-" {
+      for (path = $0; path != ""; path = sub(/^[^\/]*\//, "", path) ? path : "") known[path]
+      next
+    }
+    match($0, /\/\/.*/) {
+      rest = substr($0, RSTART)
+      while (match(rest, /[a-z0-9_\/]+\.(hpp|cpp|py|sh|md|js)($|[^A-Za-z0-9_])/)) {
+        name = substr(rest, RSTART, RLENGTH); sub(/[^a-z]$/, "", name); sub(/^\/+/, "", name)
+        if (!(name in known)) print FILENAME ":" FNR ": " name
+        rest = substr(rest, RSTART + RLENGTH)
+      }
+    }
+  ' - "${cpp[@]}"
+)"
+
 breach "script that cannot be executed" "$(
   for file in "${scripts[@]}"; do
     [ -x "$file" ] || echo "$file"

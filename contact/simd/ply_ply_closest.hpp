@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closest points of ply_ply_body.hpp, a point per lane: those on the faces that the points
+// The closest points of ply_ply_kernel.cpp, a point per lane: those on the faces that the points
 // keep, a test whether no other face can be closer, and the closest of the others where one can.
 #pragma once
 

@@ -35,8 +35,8 @@
 //                    crossings of their families; without crossing the sheet's law resists them
 //   beta     -       8
 //   f        -       what the temperature of a triangle makes of its Cs and Es:
-//   Fabric::shear_over_temperature s_a      N       stabilisation of the deviations, for fabrics
-//   without shear stiffness: 1e-6 of
+//                    Fabric::shear_over_temperature
+//   s_a      N       stabilisation of the deviations, for fabrics without shear stiffness: 1e-6 of
 //                    the yarn stiffness, and, if there is shear stiffness, no more than a tenth of
 //                    the stiffness sum_c n_c beta p / d_a that it gives the deviations at half a
 //                    radian, of the softer side; else very stiff yarns would lock

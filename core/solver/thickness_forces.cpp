@@ -7,8 +7,7 @@
 //
 // the nodes of a triangle get
 //
-//   f = - W dr_e/dx,  W = 1/3 A0_e sum_n G_n / A0_n                     (V) of
-//   core/ply/thickness.hpp  (F)
+//   f = - W dr_e/dx,  W = 1/3 A0_e sum_n G_n / A0_n           (V) of core/ply/thickness.hpp    (F)
 //
 // so that the work of all contacts is what they store, lose and take, and none comes out of nothing
 // when a ply is sheared between closed tools: pressed cloth resists shear. Forces and moments of a

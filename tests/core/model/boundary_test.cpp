@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where boundaries put their nodes, and along which axes. Whole scenes: boundary_scene_test.cpp.
+// Where boundaries put their nodes, and along which axes. Whole scenes:
+// tests/scenes/boundary_test.cpp.
 #include "core/model/boundary.hpp"
 
 #include <cmath>
