@@ -133,10 +133,4 @@ bool check_zeros(Curve& curve, const std::string& x_word, const std::string& y_w
   return cut_below_zero(curve, x_word, diagnostics) && check_signs(curve, y_word, diagnostics);
 }
 
-bool check_curve(Curve& curve, const std::string& x_word, const std::string& y_word,
-                 Diagnostics& diagnostics) {
-  return check_rising(curve, x_word, diagnostics) &&
-         check_zeros(curve, x_word, y_word, diagnostics);
-}
-
 } // namespace plyform

@@ -63,15 +63,13 @@ std::string written_x(const Curve& curve, std::size_t row);
 std::string written_y(const Curve& curve, std::size_t row);
 std::string written_angle(const Curve& curve, std::size_t row);
 
-/// Checks the curve of a test with monotonic loading; reports an error and returns false unless
-/// - x increases; where it decreases by at most `back_share` of its span the rows are sorted, with
-///   a warning;
-/// - x is at least 0; rows below by at most that fraction are removed, with a warning;
+/// Check the curve of a test with monotonic loading; a zero that is wrong is corrected in between.
+/// Report an error and return false unless
+/// - x increases; where it decreases by at most `share` of its span the rows are sorted, with a
+/// warning;
+/// - x is at least 0; rows below by at most `back_share` are removed, with a warning;
 /// - y is not below 0 by more than `noise_share` of its largest value.
 /// `x_word` and `y_word` ("extension", "load") name the columns in messages.
-bool check_curve(Curve& curve, const std::string& x_word, const std::string& y_word,
-                 Diagnostics& diagnostics);
-/// The first of these checks, and the other two: a zero that is wrong is corrected in between.
 inline constexpr double back_share = 0.01;
 bool check_rising(Curve& curve, const std::string& x_word, Diagnostics& diagnostics,
                   double share = back_share);

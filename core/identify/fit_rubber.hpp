@@ -61,9 +61,9 @@ enum class RubberLaw { chosen, neo_hookean, mooney_rivlin };
 /// strains. Chosen: Mooney-Rivlin if chance would make its residuals so much less than those of a
 /// neo-Hookean law no more than once in a thousand, its constants are not negative, and both
 /// stresses at the largest stretch have limits within 10 %. Reports an error and returns nothing if
-/// a curve violates check_curve, has fewer than four rows or strains of more than 10, falls, cannot
-/// be fitted to within 20 %, shows a disturbance that makes the law worthless, or is no rubber's;
-/// warns if constants are not told apart.
+/// a curve violates check_rising or check_zeros, has fewer than four rows or strains of more than
+/// 10, falls, cannot be fitted to within 20 %, shows a disturbance that makes the law worthless, or
+/// is no rubber's; warns if constants are not told apart.
 std::optional<RubberFit> identify_rubber(std::vector<RubberCurve> curves,
                                          const RubberSpecimen& specimen, RubberLaw law,
                                          const FitOptions& options, Diagnostics& diagnostics);

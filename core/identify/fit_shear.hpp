@@ -56,11 +56,11 @@ struct ShearFit {
 /// sizes; all rows together, each specimen with the same weight. Uses the fabric's densities and
 /// fibre angle, which must be 90 degrees, and its in-plane bending, whose share of the load of a
 /// bias-extension test is subtracted (it depends on the law found, by iteration). Reports an error
-/// and returns nothing if a curve violates check_curve, reaches 90 degrees, covers too little (two
-/// rows per coefficient, 6 if the law is chosen; 5 degrees), cannot be fitted to within 20 % of the
-/// torque, shows a disturbance that makes the law worthless, or gives a torque that is negative,
-/// decreases within its range or is no fabric's. Throws std::invalid_argument for options out of
-/// range.
+/// and returns nothing if a curve violates check_rising or check_zeros, reaches 90 degrees, covers
+/// too little (two rows per coefficient, 6 if the law is chosen; 5 degrees), cannot be fitted to
+/// within 20 % of the torque, shows a disturbance that makes the law worthless, or gives a torque
+/// that is negative, decreases within its range or is no fabric's. Throws std::invalid_argument for
+/// options out of range.
 std::optional<ShearFit> identify_shear(const std::vector<Curve>& curves, const ShearTest& test,
                                        const Fabric& fabric, const FitOptions& options,
                                        Diagnostics& diagnostics);

@@ -38,8 +38,9 @@ struct TensionFit {
 /// of at most 20 rows: at the strains of the curve if they are that few, else at strains selected
 /// evenly from them, with tensions by least squares, as far as all specimens go. Corrections are
 /// those of x and y as measured. Reports an error and returns nothing if a curve violates
-/// check_curve, has fewer than two rows or strains of 50 % and more, softens, cannot be fitted to
-/// within 20 %, shows a disturbance that makes the law worthless, or is no yarn's.
+/// check_rising or check_zeros, has fewer than two rows or strains of 50 % and more, softens,
+/// cannot be fitted to within 20 %, shows a disturbance that makes the law worthless, or is no
+/// yarn's.
 std::optional<TensionFit> identify_tension(const std::vector<Curve>& curves, const Strip& strip,
                                            const FitOptions& options, Diagnostics& diagnostics);
 std::optional<TensionFit> identify_tension(Curve curve, const Strip& strip,

@@ -98,10 +98,6 @@ double uniaxial_load(const MooneyRivlinLaw& law, double stretch) {
   return 2.0 * (stretch - 1.0 / (stretch * stretch)) * (law.c10 + law.c01 / stretch);
 }
 
-double pure_shear_load(const MooneyRivlinLaw& law, double stretch) {
-  return 2.0 * (stretch - std::pow(stretch, -3.0)) * (law.c10 + law.c01);
-}
-
 double equibiaxial_load(const MooneyRivlinLaw& law, double stretch) {
   return 2.0 * (stretch - std::pow(stretch, -5.0)) * (law.c10 + law.c01 * stretch * stretch);
 }

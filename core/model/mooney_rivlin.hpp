@@ -48,10 +48,9 @@ struct MooneyRivlinLaw {
 };
 
 /// Loads per width before forming, N/mm, of a sheet stretched to `stretch` along one direction:
-/// uniaxial, free across it; pure shear, its width held; equibiaxial, stretched as much across it.
-///   2 (l - 1/l^2) (C10 + C01/l),  2 (l - 1/l^3) (C10 + C01),  2 (l - 1/l^5) (C10 + C01 l^2)  (N)
+/// uniaxial, free across it; equibiaxial, stretched as much across it.
+///   2 (l - 1/l^2) (C10 + C01/l),  2 (l - 1/l^5) (C10 + C01 l^2)                             (N)
 double uniaxial_load(const MooneyRivlinLaw& law, double stretch);
-double pure_shear_load(const MooneyRivlinLaw& law, double stretch);
 double equibiaxial_load(const MooneyRivlinLaw& law, double stretch);
 
 /// Where a law with a negative constant becomes unstable: the stretch beyond which a load of (N)

@@ -46,14 +46,6 @@ double largest_omega2(const Bending& b, const Eigen::VectorXd& root, const Of& o
   return upper_bound(largest_ritz_value(apply, start, ritz_steps));
 }
 
-/// In-plane curvature of one family of yarns at one node.
-struct YarnCurvature {
-  Vec3 across;         ///< c / l^2
-  Vec3 slope;          ///< q, 1/mm
-  double kappa = 0.0;  ///< 1/mm
-  double moment = 0.0; ///< M_g, N
-};
-
 /// D_g of the families at a node, N mm; none without in-plane bending.
 std::span<const double> in_plane_at(const Bending& b, std::size_t node) {
   const std::size_t families = b.law.families.size();
@@ -61,57 +53,10 @@ std::span<const double> in_plane_at(const Bending& b, std::size_t node) {
                             : std::span(b.in_plane).subspan(node * families, families);
 }
 
-/// First derivative along a family.
-Vec3 first_along(const FamilyBending& family, const StencilShape& s) {
-  return family.along.x() * s.first[0] + family.along.y() * s.first[1];
-}
-
-/// (T) of a family of yarns whose D_g is `stiffness` (N mm).
-YarnCurvature yarn_curvature(const StencilShape& s, const FamilyBending& family, double stiffness) {
-  YarnCurvature t;
-  const Vec3 p = family.of_axes(),
-             second = p[0] * s.second[0] + p[1] * s.second[1] + p[2] * s.second[2];
-  const Vec3 c = s.normal.cross(first_along(family, s));
-  constexpr double least = 1e-12; // lower limit of l^2, below which a yarn has no direction
-  const double l2 = std::max(least, c.squaredNorm());
-  t.across = c / l2;
-  t.kappa = second.dot(t.across);
-  t.slope = second / l2 - 2.0 * t.kappa * t.across;
-  t.moment = stiffness * t.kappa;
-  return t;
-}
-
 /// kappa_f of (K).
 double family_curvature(const FamilyBending& family, const std::array<double, 3>& kappa) {
   const Vec3 p = family.of_axes();
   return p[0] * kappa[0] + p[1] * kappa[1] + p[2] * kappa[2];
-}
-
-/// (M)
-std::array<double, 3> moments(const BendingLaw& law, const std::array<double, 3>& kappa) {
-  std::array<double, 3> m{law.coupling * kappa[1], law.coupling * kappa[0], law.twist * kappa[2]};
-  for (const FamilyBending& family : law.families) {
-    const Vec3 of = family.law.at(family_curvature(family, kappa)).value * family.of_axes();
-    for (std::size_t k = 0; k < 3; ++k)
-      m[k] += of[static_cast<Eigen::Index>(k)];
-  }
-  return m;
-}
-
-/// Adds (I) of one family to the forces on the nodes of a stencil, except for the term of the
-/// rotation of the normal: its contribution to h, N/mm, is returned.
-Vec3 add_in_plane(const Bending& b, const StencilShape& s, std::size_t stencil, std::size_t family,
-                  std::vector<Vec3>& force) {
-  const FamilyBending& of = b.law.families[family];
-  const YarnCurvature t = yarn_curvature(s, of, in_plane_at(b, stencil)[family]);
-  const Vec3 turned = t.slope.cross(s.normal), p = of.of_axes();
-  for (auto i = static_cast<std::size_t>(b.begin[stencil]);
-       i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i) {
-    const double second = p[0] * b.b[i][0] + p[1] * b.b[i][1] + p[2] * b.b[i][2];
-    const double first = of.along.x() * b.a[i][0] + of.along.y() * b.a[i][1];
-    force[b.node[i]] -= b.area[stencil] * t.moment * (second * t.across + first * turned);
-  }
-  return t.moment * first_along(of, s).cross(t.slope);
 }
 
 /// Stiffness (N mm) of the families in their plane at a node against the second derivatives along
@@ -125,55 +70,7 @@ Eigen::Matrix3d in_plane_stiffness(const Bending& b, std::size_t node) {
   return d;
 }
 
-/// Adds the first term of (F) with these moments to the forces on the nodes of a stencil.
-void add_along_normal(const Bending& b, std::size_t stencil, const StencilShape& s,
-                      const std::array<double, 3>& m, std::vector<Vec3>& force) {
-  for (auto i = static_cast<std::size_t>(b.begin[stencil]);
-       i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
-    force[b.node[i]] -=
-        b.area[stencil] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal;
-}
-
-/// Adds the last term of (F), - dN/dx_i . `along`, to the forces on the nodes of a stencil; `along`
-/// is A0 h_t / |N|.
-void add_normal_rotation(const Bending& b, std::span<const Vec3> x, std::size_t stencil,
-                         const Vec3& along, std::vector<Vec3>& force) {
-  for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
-       i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
-    std::array<std::size_t, 3> n;
-    for (std::size_t k = 0; k < 3; ++k)
-      n[k] = static_cast<std::size_t>(b.node[b.begin[stencil] + b.fan[i][k]]);
-    const Vec3 turn1 = (x[n[2]] - x[n[0]]).cross(along), turn2 = along.cross(x[n[1]] - x[n[0]]);
-    force[n[0]] += turn1 + turn2;
-    force[n[1]] -= turn1;
-    force[n[2]] -= turn2;
-  }
-}
-
 } // namespace
-
-StencilShape stencil_shape(const Bending& b, std::span<const Vec3> x, std::size_t stencil) {
-  const auto first = static_cast<std::size_t>(b.begin[stencil]);
-  const auto at = [&](std::size_t place) -> const Vec3& { return x[b.node[first + place]]; };
-  StencilShape s;
-  Vec3 sum = Vec3::Zero(); // N
-  for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
-       i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
-    const auto& [p, q, r] = b.fan[i];
-    const Vec3& x0 = at(static_cast<std::size_t>(p));
-    sum += (at(static_cast<std::size_t>(q)) - x0).cross(at(static_cast<std::size_t>(r)) - x0);
-  }
-  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i) {
-    // differences, so that rounding is relative to the stencil's size
-    const Vec3 from = at(i - first) - at(0);
-    for (std::size_t k = 0; k < 3; ++k)
-      s.second[k] += b.b[i][k] * from;
-    for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
-      s.first[k] += b.a[i][k] * from;
-  }
-  set_normal(s, sum);
-  return s;
-}
 
 Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& triangles,
                      const BendingLaw& law, double axis1, double axis2,
@@ -224,45 +121,25 @@ std::vector<double> stencil_omega2(const Bending& b, std::span<const double> nod
   return omega2;
 }
 
-std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int node) {
-  return stencil_shape(b, x, static_cast<std::size_t>(node)).kappa;
-}
-
-double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family) {
-  const auto n = static_cast<std::size_t>(node);
-  const auto yarns = static_cast<std::size_t>(family);
-  return yarn_curvature(stencil_shape(b, x, n), b.law.families[yarns], in_plane_at(b, n)[yarns])
-      .kappa;
-}
-
-std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x) {
-  std::vector<Vec3> force(x.size(), Vec3::Zero());
-  for (std::size_t n = 0; n < x.size(); ++n) {
-    const StencilShape s = stencil_shape(b, x, n);
-    const std::array<double, 3> m = moments(b.law, s.kappa);
-    add_along_normal(b, n, s, m, force);
-    Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
-    for (std::size_t k = 0; k < b.law.families.size() && !b.in_plane.empty(); ++k)
-      h += add_in_plane(b, s, n, k, force);
-    add_normal_rotation(b, x, n, (b.area[n] / s.size) * (h - h.dot(s.normal) * s.normal), force);
-  }
-  return force;
-}
-
-void add_moment_forces(const Bending& b, std::span<const Vec3> x, std::size_t node,
-                       const StencilShape& s, const std::array<double, 3>& m,
-                       std::vector<Vec3>& force) {
-  add_along_normal(b, node, s, m, force);
-  const Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
-  add_normal_rotation(b, x, node, (b.area[node] / s.size) * (h - h.dot(s.normal) * s.normal),
-                      force);
-}
-
 void set_normal(StencilShape& s, const Vec3& sum) {
   s.size = sum.norm();
   s.normal = sum / s.size;
   for (std::size_t k = 0; k < 3; ++k)
     s.kappa[k] = s.normal.dot(s.second[k]); // (K)
+}
+
+YarnCurvature yarn_curvature(const StencilShape& s, const FamilyBending& family, double stiffness) {
+  YarnCurvature t;
+  const Vec3 p = family.of_axes(),
+             second = p[0] * s.second[0] + p[1] * s.second[1] + p[2] * s.second[2];
+  const Vec3 c = s.normal.cross(family.along.x() * s.first[0] + family.along.y() * s.first[1]);
+  constexpr double least = 1e-12; // lower limit of l^2, below which a yarn has no direction
+  const double l2 = std::max(least, c.squaredNorm());
+  t.across = c / l2;
+  t.kappa = second.dot(t.across);
+  t.slope = second / l2 - 2.0 * t.kappa * t.across;
+  t.moment = stiffness * t.kappa;
+  return t;
 }
 
 double bending_energy(const BendingLaw& law, std::span<const double> in_plane,
@@ -277,13 +154,6 @@ double bending_energy(const BendingLaw& law, std::span<const double> in_plane,
       const YarnCurvature t = yarn_curvature(s, law.families[a], in_plane[a]);
       sum += 0.5 * t.moment * t.kappa; // (G)
     }
-  return sum;
-}
-
-double bending_energy(const Bending& b, std::span<const Vec3> x) {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < b.area.size(); ++n)
-    sum += b.area[n] * bending_energy(b.law, in_plane_at(b, n), stencil_shape(b, x, n));
   return sum;
 }
 

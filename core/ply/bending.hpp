@@ -98,6 +98,17 @@ struct StencilShape {
 /// mm^2.
 void set_normal(StencilShape& s, const Vec3& sum);
 
+/// In-plane curvature of one family of yarns at one node.
+struct YarnCurvature {
+  Vec3 across;         ///< c / l^2
+  Vec3 slope;          ///< q, 1/mm
+  double kappa = 0.0;  ///< 1/mm
+  double moment = 0.0; ///< M_g, N
+};
+
+/// (T) of a family of yarns whose D_g is `stiffness` (N mm).
+YarnCurvature yarn_curvature(const StencilShape& s, const FamilyBending& family, double stiffness);
+
 /// (E) + (G) at one node per area A0, N; in_plane: D_g of the families there, N mm, or none.
 double bending_energy(const BendingLaw& law, std::span<const double> in_plane,
                       const StencilShape& s);
@@ -116,27 +127,5 @@ double bending_omega2(const Bending& b, std::span<const double> node_mass);
 /// (t) of its nodes: what it would give without the stencils around, no bound. Coupling does not
 /// count.
 std::vector<double> stencil_omega2(const Bending& b, std::span<const double> node_mass);
-
-/// Curvatures (K) kappa_11, kappa_22, kappa_12 (1/mm) at one node. x: mm, one per node.
-std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int node);
-
-/// (T), 1/mm, of a family at one node. Requires that b has in-plane bending (D_g > 0 of any
-/// family). x: mm, one per node.
-double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family);
-
-/// Normal and derivatives at one node. x: mm, one per node.
-StencilShape stencil_shape(const Bending& b, std::span<const Vec3> x, std::size_t node);
-
-/// Adds (F) of one stencil with these moments m_11, m_22, m_12 (N) to the forces on all nodes (N).
-void add_moment_forces(const Bending& b, std::span<const Vec3> x, std::size_t node,
-                       const StencilShape& s, const std::array<double, 3>& m,
-                       std::vector<Vec3>& force);
-
-/// (F) + (I) on each node, N, one stencil after the other. x: mm. Reference implementation against
-/// which core/ply/bending_simd.hpp is tested.
-std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x);
-
-/// (E) + (G) summed over all nodes, N mm. x: mm, one per node. Likewise the reference.
-double bending_energy(const Bending& b, std::span<const Vec3> x);
 
 } // namespace plyform

@@ -38,14 +38,6 @@ bool has_viscosity(const BendingLaw& law);
 std::optional<ViscousBending>
 make_viscous_bending(Bending bending, std::span<const double> node_mass, double omega2);
 
-/// Forces (N) on all nodes at positions x (mm). dt: s of the process, of the step that led to x; 0
-/// at the start. begin, end: `states` numbers of the first node, of the second ... factors: of the
-/// viscosity at each node, or empty: 1.
-void viscous_bending_forces(const ViscousBending& v, const Bending& bending,
-                            std::span<const Vec3> x, double dt, std::span<const double> begin,
-                            std::span<double> end, std::vector<Vec3>& force,
-                            std::span<const double> factors = {});
-
 /// N mm, of all nodes: what springs store, and what was lost since the start.
 struct ViscousBendingEnergy {
   double stored = 0.0, lost = 0.0;

@@ -73,21 +73,6 @@ struct ViscousMembrane {
 /// stroke: s, of the process. Nothing if no law has rates.
 std::optional<ViscousMembrane> make_viscous(Membrane& m, double stroke);
 
-/// What triangles keep: `states` numbers for the first, for the second ...
-struct ViscousStates {
-  std::span<const double> begin;
-  std::span<double> end;
-  /// m, what temperatures make of laws that are given at another one: of viscosities, and of the
-  /// times in which branches relax; moduli stay (superposition of time and temperature). Empty: 1.
-  std::span<const double> factors = {};
-  double factor_of(std::size_t e) const { return factors.empty() ? 1.0 : factors[e]; }
-};
-
-/// (Q) of groups [begin, end) by rates at positions x (mm, n). dt: s of the process, of the step
-/// that led to x; 0 at the start. q: N mm, m, of which those of the groups are written.
-void viscous_forces(const ViscousMembrane& v, const Membrane& m, std::span<const Vec3> x, double dt,
-                    int begin, int end, const ViscousStates& states, std::span<ElementForce> q);
-
 /// N mm, of all triangles: what springs of branches store, and what was lost since the start.
 struct ViscousEnergy {
   double stored = 0.0, lost = 0.0;

@@ -89,18 +89,6 @@ private:
 
 } // namespace
 
-double cut_between_nodes(double side, double radius, double thickness, double half_turn) {
-  const double R = radius + 0.5 * thickness, half = 0.5 * side;
-  if (half <= R * std::sin(half_turn)) return R - std::sqrt(R * R - half * half); // (1)
-  return half * std::tan(half_turn) - R * (1.0 / std::cos(half_turn) - 1.0);      // (2)
-}
-
-double side_of_half_cut(double radius, double thickness, double half_turn) {
-  const double R = radius + 0.5 * thickness, cut = 0.5 * thickness;
-  if (cut <= R * (1.0 - std::cos(half_turn))) return 2.0 * std::sqrt(cut * (2.0 * R - cut)); // (1)
-  return 2.0 * (cut + R * (1.0 / std::cos(half_turn) - 1.0)) / std::tan(half_turn);          // (2)
-}
-
 std::vector<ToolCut> cuts_between_nodes(const Scene& s, ThreadPool& pool) {
   std::vector<ToolCut> cuts(s.tools.size() * s.plies.size());
   pool.run(static_cast<int>(cuts.size()), [&](int i) {

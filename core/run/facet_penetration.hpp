@@ -22,12 +22,6 @@
 
 namespace plyform {
 
-/// (1), (2): c in mm. side, radius, thickness in mm; half_turn: a, rad, above 0 and below pi/2.
-double cut_between_nodes(double side, double radius, double thickness, double half_turn);
-
-/// The longest side (mm) whose cut is half a thickness.
-double side_of_half_cut(double radius, double thickness, double half_turn);
-
 /// Depth of one ply in one tool at their present positions: half the thickness minus the distance
 /// of the mid-surface, as in contact; of a fabric with compaction, which gives way to its densest
 /// packing, half of what is left then.

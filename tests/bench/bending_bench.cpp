@@ -3,6 +3,7 @@
 // of the sheet alone and with yarns that bend in it.
 #include "core/ply/bending_simd.hpp"
 #include "tests/support/bending_laws.hpp"
+#include "tests/support/bending_reference.hpp"
 
 #include <benchmark/benchmark.h>
 #include <cmath>

@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     columns.y.column = y;
     columns.with_angle = true;
     std::optional<Curve> curve = read_curve(file, columns, diagnostics);
-    if (!curve || !check_curve(*curve, "displacement", "force", diagnostics)) {
+    if (!curve || !check_rising(*curve, "displacement", diagnostics) ||
+        !check_zeros(*curve, "displacement", "force", diagnostics)) {
       if (diagnostics.errors.empty()) std::abort();
       continue;
     }

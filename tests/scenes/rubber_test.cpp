@@ -11,6 +11,7 @@
 // rise over a. The pressure is largest, 1.879, at a stretch of 2.2.
 #include "core/run/run.hpp"
 #include "core/solver/scene.hpp"
+#include "support/pure_shear.hpp"
 #include "support/scene_checks.hpp"
 #include "support/strip_scenes.hpp"
 #include "support/thread_checks.hpp"

@@ -10,6 +10,21 @@ namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
 
+/// (1), (2) of core/run/facet_penetration.hpp: c in mm. side, radius, thickness in mm; half_turn:
+/// a, rad, above 0 and below pi/2.
+double cut_between_nodes(double side, double radius, double thickness, double half_turn) {
+  const double R = radius + 0.5 * thickness, half = 0.5 * side;
+  if (half <= R * std::sin(half_turn)) return R - std::sqrt(R * R - half * half); // (1)
+  return half * std::tan(half_turn) - R * (1.0 / std::cos(half_turn) - 1.0);      // (2)
+}
+
+/// The longest side (mm) whose cut is half a thickness.
+double side_of_half_cut(double radius, double thickness, double half_turn) {
+  const double R = radius + 0.5 * thickness, cut = 0.5 * thickness;
+  if (cut <= R * (1.0 - std::cos(half_turn))) return 2.0 * std::sqrt(cut * (2.0 * R - cut)); // (1)
+  return 2.0 * (cut + R * (1.0 / std::cos(half_turn) - 1.0)) / std::tan(half_turn);          // (2)
+}
+
 /// A strip 20 mm wide lies from x = -60 to 60 over a table that ends, or curves away, near x = 0.
 /// Its right end is drawn down by 48 mm, its left end kept level and free to follow. No friction.
 Scene drawn_over(const ToolShape& shape, const Vec3& position, const Eigen::Matrix3d& rotation,
@@ -102,7 +117,8 @@ TEST(SharpTool, BoundIsTheWorstOfAllChords) {
         return {sign * (R * std::sin(half_turn) + over * std::cos(half_turn)),
                 R * std::cos(half_turn) - over * std::sin(half_turn)};
       };
-      for (const double side : {0.5, 3.0, 10.0}) {
+      const double half_cut = side_of_half_cut(radius, 0.6, half_turn);
+      for (const double side : {0.5, 3.0, 10.0, half_cut}) {
         double worst = 0.0;
         for (double from = -side - R; from < side + R; from += 0.01 * side) {
           const Vec2 a = path(from);
@@ -125,9 +141,10 @@ TEST(SharpTool, BoundIsTheWorstOfAllChords) {
         // the nearest surface of a wedge is a flank: nearer than its edge by cos a
         const double slant = side > 2.0 * R * std::sin(half_turn) ? std::cos(half_turn) : 1.0;
         EXPECT_GE(worst, 0.95 * slant * bound) << radius << " " << half_turn << " " << side;
+        if (side != half_cut) continue;
+        EXPECT_LE(worst, 0.3 * (1.0 + 1e-9)) << radius << " " << half_turn;
+        EXPECT_GE(worst, 0.95 * slant * 0.3) << radius << " " << half_turn;
       }
-      const double half_cut = side_of_half_cut(radius, 0.6, half_turn);
-      EXPECT_NEAR(cut_between_nodes(half_cut, radius, 0.6, half_turn), 0.3, 1e-9);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "core/identify/shear_tests.hpp"
 #include "core/ply/bending.hpp"
 #include "core/ply/membrane.hpp"
+#include "support/bending_reference.hpp"
 #include "support/membrane_checks.hpp"
 #include "support/strip_mesh.hpp"
 

@@ -3,6 +3,7 @@
 #include "core/model/mooney_rivlin.hpp"
 #include "core/ply/membrane.hpp"
 #include "support/membrane_checks.hpp"
+#include "support/pure_shear.hpp"
 #include "support/sheet_stiffness.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -4,6 +4,7 @@
 #include "core/ply/bending_simd.hpp"
 #include "core/ply/viscous_simd.hpp"
 #include "support/bending_laws.hpp"
+#include "support/bending_reference.hpp"
 #include "support/membrane_checks.hpp"
 
 #include <array>

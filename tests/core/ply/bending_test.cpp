@@ -2,6 +2,7 @@
 // Bending: curvatures of known surfaces, forces from energy, momentum, the step's bound.
 #include "core/ply/bending.hpp"
 #include "support/bending_laws.hpp"
+#include "support/bending_reference.hpp"
 #include "support/gradient_check.hpp"
 #include "support/scene_checks.hpp"
 

@@ -3,6 +3,7 @@
 // must not cost anything, the step's bound.
 #include "core/ply/bending.hpp"
 #include "support/bending_laws.hpp"
+#include "support/bending_reference.hpp"
 #include "support/gradient_check.hpp"
 #include "support/scene_checks.hpp"
 

@@ -5,6 +5,7 @@
 #include "support/bending_laws.hpp"
 #include "support/membrane_checks.hpp"
 #include "support/viscous_fabrics.hpp"
+#include "support/viscous_reference.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include "core/ply/viscous_membrane.hpp"
 #include "support/membrane_checks.hpp"
 #include "support/viscous_fabrics.hpp"
+#include "support/viscous_reference.hpp"
 
 #include <functional>
 #include <gtest/gtest.h>
