@@ -2,7 +2,7 @@
 #include "core/input/checks/unit_checks.hpp"
 
 #include "base/format.hpp"
-#include "core/input/dxf/dxf_outline.hpp"
+#include "core/drawing/dxf_outline.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/boundary.hpp"
 

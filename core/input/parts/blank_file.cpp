@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the blanks of a case file.
 #include "base/format.hpp"
-#include "core/input/dxf/dxf_outline.hpp"
+#include "core/drawing/dxf_outline.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/overrides.hpp"
 #include "core/input/keys/point_list.hpp"

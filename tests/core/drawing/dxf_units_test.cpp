@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every code of $INSUNITS: a square of 100 mm in each unit that is known, others refused.
-#include "core/input/dxf/dxf_outline.hpp"
+#include "core/drawing/dxf_outline.hpp"
 
 #include <cstdio>
 #include <filesystem>

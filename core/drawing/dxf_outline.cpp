@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/input/dxf/dxf_outline.hpp"
+#include "core/drawing/dxf_outline.hpp"
 
 #include "base/format.hpp"
 #include "base/text.hpp"
 #include "base/units.hpp"
-#include "core/input/dxf/dxf_drawing.hpp"
+#include "core/drawing/dxf_drawing.hpp"
 #include "core/mesh/mesh_blank.hpp"
 
 #include <algorithm>

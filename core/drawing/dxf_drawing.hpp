@@ -3,7 +3,7 @@
 // dxf_drawing.cpp only.
 #pragma once
 
-#include "core/input/dxf/dxf_curve.hpp"
+#include "core/drawing/dxf_curve.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -39,7 +39,7 @@ struct DxfDrawing {
 };
 
 /// Reads an ASCII DXF file by dxflib, in a process of its own, with blocks where they are inserted
-/// (core/input/dxf/dxf_blocks.hpp). Left out are texts, dimensions and
+/// (core/drawing/dxf_blocks.hpp). Left out are texts, dimensions and
 /// other entities that are no geometry. Throws std::runtime_error ("rule; remedy", without the
 /// file's name): no such file, DWG, binary, no DXF, cut short, lines that dxflib would take
 /// for others, dxflib crashed.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/input/dxf/dxf_curve.hpp"
+#include "core/drawing/dxf_curve.hpp"
 
 #include "base/format.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ellipses and splines of drawings against their equations. Files of them, as ezdxf writes them:
 // tests/python/drawing_test.py.
-#include "core/input/dxf/dxf_curve.hpp"
+#include "core/drawing/dxf_curve.hpp"
 
 #include <algorithm>
 #include <cmath>

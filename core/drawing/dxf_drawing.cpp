@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/input/dxf/dxf_drawing.hpp"
+#include "core/drawing/dxf_drawing.hpp"
 
 #include "base/archive.hpp"
 #include "base/format.hpp"
 #include "base/helper_process.hpp"
 #include "base/text.hpp"
-#include "core/input/dxf/dxf_blocks.hpp"
-#include "core/input/dxf/dxf_groups.hpp"
+#include "core/drawing/dxf_blocks.hpp"
+#include "core/drawing/dxf_groups.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 //                                        seen from below x and y then go to -x and y
 #pragma once
 
-#include "core/input/dxf/dxf_drawing.hpp"
+#include "core/drawing/dxf_drawing.hpp"
 
 #include <map>
 
