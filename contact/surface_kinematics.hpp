@@ -29,6 +29,7 @@ struct SurfaceKinematics {
   std::span<const double> rim_distance = {};
   /// per node, degC; for friction that asks for it
   std::span<const double> temperature = {};
+  std::span<const double> area_now = {}; ///< mm^2, as `area`, now; where a vacuum presses
 };
 
 } // namespace plyform

@@ -53,7 +53,7 @@ faults=(
   "sheared cloth is as thick as before | core/ply/thickness.cpp | s/return std::sqrt(ratio2);/return 1.0 + 0.0 * ratio2;/"
   "cloth goes back as it came | contact/simd/contact_law_simd.hpp | s/if (!k.compacted) {/if (true) {/"
   "air pushes on nodes that contact holds on each other | core/solver/vacuum_contact.cpp | s/const double borne = q/const double borne = 0.0 * q/"
-  "friction does not feel a vacuum | contact/simd/ply_ply_point_forces.hpp | s/borne = p.vacuum_share \\* k.vacuum - pull;/borne = zero;/"
+  "friction does not feel a vacuum | contact/simd/ply_ply_point_forces.hpp | s/return {pull, on .* (1.0 - open), k.stuck/return {pull, all(0.0), k.stuck/"
   "opening between yarns is the change of area | core/run/output_state.cpp | s/now \/ before \/ (1.0 + family.strain\[e\]) - 1.0/now \/ before - 1.0/"
 )
 filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeEdgeContact*:*Stitch*:*Shear*:*Crimp*:Families*:ClosedMould*:Compaction*:MembraneSimd*:*Friction*:Enclosure*'

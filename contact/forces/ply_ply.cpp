@@ -276,7 +276,7 @@ PlyPlyKernelContact kernel_view(KernelContext& k, double dt) {
   }
   view.compacted = c.compacted.empty() ? nullptr : c.compacted.data();
   view.per_vacuum_gap = c.vacuum_gap > 0.0 ? 1.0 / c.vacuum_gap : 0.0;
-  view.slave_area = k.slave.area.data(), view.master_area = k.master.area.data();
+  view.slave_area = k.slave.area_now.data(), view.master_area = k.master.area_now.data();
   view.vacuum = c.vacuum, view.vacuum_before = c.vacuum_before;
   if (c.law.by_temperature() && !k.slave.temperature.empty() && !k.master.temperature.empty()) {
     view.slave_celsius = k.slave.temperature.data();

@@ -25,8 +25,8 @@
 // it, and what is left of it pulls on what has opened by g = -p, with the stiffness k of both
 // passes:
 //   N -= b A q min(g / g_q, 1) min(2 - g / g_q, 1) for 0 < g < 2 g_q,  g_q = q_most / k     (V)
-// A being the smaller area of node and face, b is 1/2 of the larger one and 1 - A / (2 A_face) of
-// the smaller, so that both passes come to q. What opens no further than g_q stays conservative,
+// A being the smaller area of node and face now, b is 1/2 of the larger one and 1 - A / (2 A_face)
+// of the smaller, so that both passes come to q. What opens no further than g_q stays conservative,
 // and nothing is pushed at rest, whatever the meshes, where pressures on nodes against forces at
 // other nodes dent both. Beyond g_q air pushes on the nodes instead
 // (core/solver/vacuum_contact.hpp). Friction feels what contact bears.

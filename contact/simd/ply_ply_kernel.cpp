@@ -277,9 +277,9 @@ PLYFORM_INLINE Doubles film_temperatures(const PlyPlyKernelContact& k, const Gro
   return 0.5 * (each_lane([&](int i) { return k.slave_celsius[g.point[i]->node]; }) + master);
 }
 
-/// b of (V).
-PLYFORM_INLINE Doubles vacuum_share(const PlyPlyKernelContact& k, const Group& g,
-                                    const SimdWeights& w) {
+/// b A of (V).
+PLYFORM_INLINE Doubles vacuum_area(const PlyPlyKernelContact& k, const Group& g,
+                                   const SimdWeights& w) {
   if (k.per_vacuum_gap <= 0.0) return all(0.0);
   const auto corner = [&](int j) {
     return each_lane(
@@ -287,7 +287,7 @@ PLYFORM_INLINE Doubles vacuum_share(const PlyPlyKernelContact& k, const Group& g
   };
   const Doubles a = corner(0), face = a + w.b * (corner(1) - a) + w.c * (corner(2) - a);
   const Doubles own = each_lane([&](int i) { return k.slave_area[g.point[i]->node]; });
-  return 1.0 - 0.5 * smaller(own / face, all(1.0));
+  return smaller(own, face) * (1.0 - 0.5 * smaller(own / face, all(1.0)));
 }
 
 /// Third pass: forces of touching points.
@@ -309,7 +309,7 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* acti
                thickness,
                load_compacted(k, g.point),
                k.stuck ? each_lane([&](int i) { return g.point[i]->by_angle; }) : all(1.0),
-               vacuum_share(k, g, w),
+               vacuum_area(k, g, w),
                film_temperatures(k, g, w),
                {held.of[3], last.of[0], last.of[1], {held.of[0], held.of[1], held.of[2]}},
                {}};

@@ -31,7 +31,7 @@ struct PlyPlyKernelContact : ContactKernelLaw {
   double slave_share;
   double per_vacuum_gap;                        ///< 1/mm, 1 / g_q of (V); 0: there is none
   double vacuum, vacuum_before;                 ///< N/mm^2, of PlyPlyContact
-  const double *slave_area, *master_area;       ///< mm^2, of the nodes, before forming
+  const double *slave_area, *master_area;       ///< mm^2, of the nodes now
   const double *slave_celsius, *master_celsius; ///< degC, of the nodes; null: not asked for
   void* self;                                   ///< first argument of the callbacks
   /// Called if a point that carried force has opened; last_gap: mm, of the step before.

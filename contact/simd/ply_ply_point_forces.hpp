@@ -17,11 +17,11 @@ namespace {
 /// The state of points that the computation of their forces changes.
 struct SimdPoints {
   Doubles area, gap, last_gap;
-  Doubles thickness;    ///< r of contact/forces/contact_law.hpp
-  Doubles compacted;    ///< mm, the greatest depth so far, if the law asks for it
-  Doubles by_angle;     ///< f_a of contact/forces/friction_law.hpp, if the law asks for it
-  Doubles vacuum_share; ///< b of (V)
-  Doubles celsius;      ///< degC, of the film between the plies there; NaN: not asked for
+  Doubles thickness;   ///< r of contact/forces/contact_law.hpp
+  Doubles compacted;   ///< mm, the greatest depth so far, if the law asks for it
+  Doubles by_angle;    ///< f_a of contact/forces/friction_law.hpp, if the law asks for it
+  Doubles vacuum_area; ///< mm^2, b A of (V)
+  Doubles celsius;     ///< degC, of the film between the plies there; NaN: not asked for
   SimdHistory memory;
   double* lately[lanes]; ///< of SlidingPlace, if the law asks for it
 };
@@ -35,10 +35,31 @@ struct SimdForces {
   Vectors on_node, couple1, couple2; ///< of (C') on corners b and c
 };
 
+/// Share of a vacuum that contact does not bear, by (V).
+PLYFORM_INLINE Doubles open_share(const PlyPlyKernelContact& k, Doubles gap) {
+  return smaller(larger(k.per_vacuum_gap * gap, all(0.0)), all(1.0));
+}
+
 /// What of a vacuum pulls on points, by (V), over q.
 PLYFORM_INLINE Doubles pull_of(const PlyPlyKernelContact& k, Doubles gap) {
-  const Doubles open = larger(k.per_vacuum_gap * gap, all(0.0));
-  return smaller(open, all(1.0)) * larger(smaller(2.0 - open, all(1.0)), all(0.0));
+  return open_share(k, gap) * larger(smaller(2.0 - k.per_vacuum_gap * gap, all(1.0)), all(0.0));
+}
+
+/// A vacuum at points.
+struct SimdVacuum {
+  Doubles pull;  ///< N, by (V)
+  Doubles borne; ///< N/mm^2, what contact bears of it
+  Longs rubs;    ///< whether there is friction
+};
+
+/// closed: mm, since the step before, of points whose gap then is `known`.
+PLYFORM_INLINE SimdVacuum vacuum_of(const PlyPlyKernelContact& k, const SimdPoints& p,
+                                    Doubles closed, Longs known, Longs touch, SimdTotals& sums) {
+  const Doubles on = touch ? p.vacuum_area : all(0.0), open = open_share(k, p.gap);
+  const Doubles pull = on * k.vacuum * pull_of(k, p.gap);
+  const Doubles before = known ? on * k.vacuum_before * pull_of(k, p.last_gap) : pull;
+  add(sums.vacuum, 0.5 * (pull + before) * closed);
+  return {pull, on / p.area * k.vacuum * (1.0 - open), k.stuck ? touch : touch & (open < 1.0)};
 }
 
 /// Normal force and friction of points whose feet are known; `touch`: those that touch; fold:
@@ -60,14 +81,11 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
   const Doubles pressure = normal_pressure(k, area, elastic.pressure, depth, opened, dp,
                                            per_thickness, touch, p.memory, sums);
   SimdForces f{p.memory.normal_force * normal, {zero, zero, zero}, {zero, zero, zero}};
-  Doubles borne = zero; // of a vacuum, N/mm^2
+  SimdVacuum vacuum{zero, zero, touch};
   if (k.per_vacuum_gap > 0.0) {
-    const Doubles pull = p.vacuum_share * k.vacuum * pull_of(k, p.gap);
-    const Doubles before = known ? p.vacuum_share * k.vacuum_before * pull_of(k, p.last_gap) : pull;
     const Doubles closed = known ? p.last_gap - p.gap : -dot(normal, motion);
-    f.on_node = f.on_node - area * pull * normal;
-    add(sums.vacuum, 0.5 * area * (pull + before) * closed);
-    borne = p.vacuum_share * k.vacuum - pull;
+    vacuum = vacuum_of(k, p, closed, known, touch, sums);
+    f.on_node = f.on_node - vacuum.pull * normal;
   }
   Doubles stored2 = zero;
   if (k.friction > 0.0) {
@@ -82,8 +100,9 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
     SimdSliding by{p.by_angle, per_thickness, p.celsius, {}};
     for (int i = 0; i < lanes && k.lately; ++i)
       by.lately[i] = p.lately[i];
-    const Vectors tangential = friction_of(k, area, pressure + borne, normal, s + cross(turn, s),
-                                           slip, by, touch, p.memory, sums);
+    const Vectors tangential =
+        friction_of(k, area, pressure + vacuum.borne, normal, s + cross(turn, s), slip, by,
+                    vacuum.rubs, p.memory, sums);
     f.on_node = f.on_node + tangential;
     const Vectors couple = cross(tangential, arm); // -r x T of (M)
     const Doubles half = 0.5 * dot(couple, n);

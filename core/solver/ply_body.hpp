@@ -135,6 +135,7 @@ struct PlyCache {
   /// N/mm^2, positive upwards, on each node: what contact has of the vacuums that push the ply, by
   /// core/solver/vacuum_contact.hpp; empty: there is none
   std::vector<double> borne_load;
+  std::vector<double> area_now; ///< mm^2, of each node, of plies that a vacuum presses; else empty
   double last_load_work = 0.0; ///< N mm, of these forces over the half of the step that led to them
   std::vector<double> last_ratio; ///< thickness_ratio in the step before
   std::vector<double> squeeze;    ///< N/mm, core/solver/thickness_forces.cpp; so below
@@ -157,9 +158,9 @@ void each_array(PlyCache& ply, F&& f) {
   auto& [x_search, max_displacement, path_length, fold_bound, fold_motion, occluded, ridges,
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
          thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
-         borne_load, last_load_work, last_ratio, squeeze, spread, pressed, yarns_end, viscous_end,
-         bending_end, viscous_stepped, flow_factors, node_flow_factors, shear_factors, flow_time] =
-      ply;
+         borne_load, area_now, last_load_work, last_ratio, squeeze, spread, pressed, yarns_end,
+         viscous_end, bending_end, viscous_stepped, flow_factors, node_flow_factors, shear_factors,
+         flow_time] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);
@@ -181,8 +182,17 @@ void each_array(PlyCache& ply, F&& f) {
 /// A ply in motion.
 struct PlyBody : PlyModel, PlyState, PlyCache {
   SurfaceKinematics state() const {
-    return {x,      motion,    membrane.node_area, fold_bound, edges.faces_across, thickness_ratio,
-            fibres, edges.all, rim_distance,       temperature};
+    return {x,
+            motion,
+            membrane.node_area,
+            fold_bound,
+            edges.faces_across,
+            thickness_ratio,
+            fibres,
+            edges.all,
+            rim_distance,
+            temperature,
+            area_now};
   }
   /// States of laws with rates now, those of the step that was computed or of the one taken: of
   /// the first triangle, of the second ...; and of nodes.

@@ -48,7 +48,8 @@ void each_row(const Scene& s, std::size_t p, const Add& add) {
   const PlyBody& ply = s.plies[p];
   if (const double opening = 2.0 * vacuum_stiffness(s, p); opening > 0.0)
     for (std::size_t n = 0; n < ply.x.size(); ++n)
-      add(n, opening * ply.membrane.node_area[n]);
+      add(n, opening *
+                 std::max(ply.membrane.node_area[n], ply.area_now.empty() ? 0.0 : ply.area_now[n]));
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];
     const double row = sixth * ((b - a).norm() + (c - b).norm() + (a - c).norm());

@@ -35,6 +35,16 @@ double gap_at(const PlyPlyContact& contact, const PlyPlyPoint& point, const PlyB
                                                             master.state(), triangles);
 }
 
+void renew_area(PlyBody& ply) {
+  ply.area_now.assign(ply.x.size(), 0.0);
+  for (const auto& [a, b, c] : ply.membrane.triangles) {
+    const double third =
+        (ply.x[at(b)] - ply.x[at(a)]).cross(ply.x[at(c)] - ply.x[at(a)]).norm() / 6.0;
+    for (const int n : {a, b, c})
+      ply.area_now[at(n)] += third;
+  }
+}
+
 /// q: N/mm^2 now. up: the slave is the lower one, so that the air pushes it upwards.
 void bear(PlyPlyContact& contact, double q, bool up, PlyBody& slave, const PlyBody& master) {
   contact.vacuum_before = std::exchange(contact.vacuum, q);
@@ -59,8 +69,10 @@ void bear_vacuums(Scene& s) {
   const std::vector<Enclosure> enclosures = enclosures_of(s.data);
   if (enclosures.empty()) return;
   for (const Enclosure& e : enclosures)
-    for (const int p : {e.lower, e.upper})
+    for (const int p : {e.lower, e.upper}) {
       s.plies[at(p)].borne_load.assign(s.plies[at(p)].x.size(), 0.0);
+      renew_area(s.plies[at(p)]);
+    }
   for (PlyPair& pair : s.ply_pairs) {
     if (pair.passes[0].contact.vacuum_gap <= 0.0) continue;
     double q = 0.0;

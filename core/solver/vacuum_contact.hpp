@@ -15,9 +15,9 @@ namespace plyform {
 /// N/mm^2, the most that a vacuum between these two plies has; 0: there is none.
 double largest_vacuum(const Case& data, int a, int b);
 
-/// Sets PlyPlyContact::vacuum and PlyCache::borne_load, what (N) leaves out, of plies that a vacuum
-/// presses on each other, at the present positions. To be called at every step, after searches and
-/// before forces are computed.
+/// Sets PlyPlyContact::vacuum, PlyCache::borne_load, what (N) leaves out, and area_now of plies
+/// that a vacuum presses on each other, at the present positions. To be called at every step, after
+/// searches and before forces are computed.
 void bear_vacuums(Scene& s);
 
 /// N/mm^3: the most by which (N) changes on any node of a ply as its gap opens.
