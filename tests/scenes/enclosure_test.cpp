@@ -89,6 +89,14 @@ double height(const Frame& frame, std::size_t p) {
   return volume / area - ply.x0.front().z();
 }
 
+/// mm, by which the middle of a sheet has risen.
+double rise(const RunResult& run, std::size_t p) {
+  double most = 0.0;
+  for (const Vec3& x : run.last.plies[p].x)
+    most = std::max(most, x.z());
+  return most - run.last.plies[p].x0.front().z();
+}
+
 /// A pressure below bulges both: contact bears the half of it that the upper one carries.
 Case bulged(const BlankSpec& lower, const BlankSpec& upper) {
   Case data = enclosed(lower, upper, false);
@@ -110,6 +118,16 @@ Case as_one(const BlankSpec& blank) {
 }
 
 TEST(Enclosure, SheetsThatBulgeTogetherRiseAsOneOfBothThicknesses) {
+  const RunResult pair = run_case(bulged(fine, fine), 1, {});
+  const double expected = rise(run_case(as_one(fine), 1, {}), 0);
+  ASSERT_GT(expected, 10.0);
+  for (const std::size_t ply : {0, 1}) {
+    fmt::print("{:.3f} mm, as one {:.3f} mm\n", rise(pair, ply), expected);
+    EXPECT_NEAR(rise(pair, ply), expected, 0.02 * expected);
+  }
+}
+
+TEST(Enclosure, SheetsThatBulgeTogetherLieAsHighAsThoseOfEitherMesh) {
   const auto of = [](const BlankSpec& lower, const BlankSpec& upper) {
     const RunResult run = run_case(bulged(lower, upper), 1, {});
     EXPECT_NE(run.summary.status, "stopped") << run.summary.message;
@@ -119,10 +137,6 @@ TEST(Enclosure, SheetsThatBulgeTogetherRiseAsOneOfBothThicknesses) {
     return lower_height;
   };
   const double alone = of(fine, fine);
-  const double expected = height(run_case(as_one(fine), 1, {}).last, 0);
-  ASSERT_GT(expected, 3.0);
-  fmt::print("{:.3f} mm, as one {:.3f} mm\n", alone, expected);
-  EXPECT_NEAR(alone, expected, 0.02 * expected);
   for (const BlankSpec& other : others) {
     const double own = of(other, other), mixed = of(fine, other);
     fmt::print("{:.3f} mm of {:.3f} and {:.3f} mm\n", mixed, alone, own);
