@@ -263,30 +263,34 @@ PLYFORM_INLINE void store_points(const PlyPlyKernelContact& k, const std::int32_
   }
 }
 
+/// Values of the master's nodes at the feet of points.
+PLYFORM_INLINE Doubles at_feet(const PlyPlyKernelContact& k, const Group& g, const SimdWeights& w,
+                               const double* values) {
+  const auto corner = [&](int j) {
+    return each_lane(
+        [&](int i) { return values[k.triangles[3 * std::int64_t{g.point[i]->face} + j]]; });
+  };
+  const Doubles a = corner(0);
+  return a + w.b * (corner(1) - a) + w.c * (corner(2) - a);
+}
+
+/// Values of the slave's nodes.
+PLYFORM_INLINE Doubles at_nodes(const Group& g, const double* values) {
+  return each_lane([&](int i) { return values[g.point[i]->node]; });
+}
+
 /// degC, at the feet of points the means of both plies: those of the film between.
 PLYFORM_INLINE Doubles film_temperatures(const PlyPlyKernelContact& k, const Group& g,
                                          const SimdWeights& w) {
   if (!k.slave_celsius) return all(__builtin_nan(""));
-  const auto corner = [&](int j) {
-    return each_lane([&](int i) {
-      return k.master_celsius[k.triangles[3 * std::int64_t{g.point[i]->face} + j]];
-    });
-  };
-  const Doubles a = corner(0);
-  const Doubles master = a + w.b * (corner(1) - a) + w.c * (corner(2) - a);
-  return 0.5 * (each_lane([&](int i) { return k.slave_celsius[g.point[i]->node]; }) + master);
+  return 0.5 * (at_nodes(g, k.slave_celsius) + at_feet(k, g, w, k.master_celsius));
 }
 
 /// b A of (V).
 PLYFORM_INLINE Doubles vacuum_area(const PlyPlyKernelContact& k, const Group& g,
                                    const SimdWeights& w) {
   if (k.per_vacuum_gap <= 0.0) return all(0.0);
-  const auto corner = [&](int j) {
-    return each_lane(
-        [&](int i) { return k.master_area[k.triangles[3 * std::int64_t{g.point[i]->face} + j]]; });
-  };
-  const Doubles a = corner(0), face = a + w.b * (corner(1) - a) + w.c * (corner(2) - a);
-  const Doubles own = each_lane([&](int i) { return k.slave_area[g.point[i]->node]; });
+  const Doubles own = at_nodes(g, k.slave_area), face = at_feet(k, g, w, k.master_area);
   return smaller(own, face) * (1.0 - 0.5 * smaller(own / face, all(1.0)));
 }
 
