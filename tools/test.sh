@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing, builds everything and runs the tests; ctest's closing lines come last.
 #   tools/test.sh [--all | --preset PRESET] [ARGUMENT OF ctest]...   e.g. tools/test.sh -R Membrane
-# Tests labelled `long`, whole cases of ten seconds to a minute, run with --all only (and in
-# .ci/run). PRESET: a test preset of CMakePresets.json, release unless told.
+# Tests labelled `long`, whole cases and pages clicked through, run with --all only. PRESET: a test
+# preset of CMakePresets.json, release unless told.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=release
