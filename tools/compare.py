@@ -24,6 +24,7 @@ try:
     import numpy as np
     from plotting.numbers import values_at
     from base.ending import EXIT_OTHER, ended, one_line
+    from base.summary_figures import described
     from plotting.reading import SHEAR, Ply, Trouble, read_state, read_summary
     from plotting.reading import ended as has_ended
     from plotting.whole_file import write_whole
@@ -79,12 +80,12 @@ def labels(folders: list[Path]) -> list[str]:
     return [one_line(name) for name in shown]
 
 
-def number(value, form: str, factor: float = 1.0) -> str:
+def number(value, form: str) -> str:
     if value is None:
         return NONE
     if not isinstance(value, (int, float)):
         raise Trouble(f"summary.json: {value!r} stands where a number should")
-    return format(factor * value, form)
+    return format(value, form)
 
 
 def with_spread(walks: dict | None) -> str:
@@ -102,20 +103,13 @@ def table(head: list[str], rows: list[list[str]], texts: int) -> str:
 
 
 def ply_table(runs: list[dict], names: list[str]) -> str:
-    head = ["folder", "ply", "angle, °", "shear: largest, °", "99 %, °", "rms, °",
-            "largest tension, N per yarn", "fibre strain: largest, %", "smallest, %",
-            "pressed over 2 %, % of area", "over 5 %, % of area", "excess length, mm",
-            "wrinkles, mm", "beyond locking, % of area",
+    """Of the figures that runs are compared by, those that any of them has."""
+    figures = {name: one for run in runs for name, one in described(run, "plies").items() if one.compared}
+    head = ["folder", "ply", "angle, °",
+            *(f"{one.label}, {one.shown_unit}" if one.unit else one.label for one in figures.values()),
             "draw-in along the yarns, mm", "along the bisectors, mm"]
     rows = [[name, ply["name"], number(ply.get("angle_deg"), "g"),
-             *(number(ply.get(f"{key}_shear_deg"), ".1f") for key in ("max", "p99", "rms")),
-             number(ply.get("max_tension_N_per_yarn"), ".3g"),
-             number(ply.get("max_fibre_strain"), ".2f", 100.0),
-             number(ply.get("min_fibre_strain"), ".1f", 100.0),
-             *(number(ply.get(f"area_share_{key}"), ".1f", 100.0) for key in
-               ("pressed_over_2_percent", "pressed_over_5_percent")),
-             *(number(ply.get(key), ".1f") for key in ("excess_length_mm", "wrinkle_height_mm")),
-             number(ply.get("area_share_beyond_locking_angle"), ".1f", 100.0),
+             *(number(one.of(ply), f".{one.digits}f") for one in figures.values()),
              *(with_spread(ply.get(f"draw_in_{key}_mm")) for key in ("yarns", "bisectors"))]
             for run, name in zip(runs, names) for ply in run["plies"]]
     return table(head, rows, 2)

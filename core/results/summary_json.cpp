@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // summary.json: the main numbers of each ply and tool, for sweeps and reports. Keys are written in
-// the order in which they appear here; docs/users/results.md describes them.
-#include "base/format.hpp"
+// the order in which they appear here and in figures.hpp; docs/users/results.md describes them.
+#include "core/results/figures.hpp"
 #include "core/results/pair_json.hpp"
 #include "core/results/result_fields.hpp"
-#include "core/results/statistics.hpp"
 
 #include <algorithm>
 #include <array>
@@ -48,55 +47,11 @@ Json four_walks(std::array<double, 4> directions, const std::array<double, 4>& e
           {"each", four_numbers(each)}};
 }
 
+/// Beside the figures.
 Json draw_in_keys(const DrawIn& d) {
   if (!d.unknown.empty()) return {{"no_draw_in", d.unknown}};
-  return {{"draw_in_mm", {{"mean", rounded(d.mean())}, {"largest", rounded(d.largest())}}},
-          {"draw_in_yarns_mm", four_walks(d.yarns_deg, d.yarns)},
+  return {{"draw_in_yarns_mm", four_walks(d.yarns_deg, d.yarns)},
           {"draw_in_bisectors_mm", four_walks(d.bisectors_deg, d.bisectors)}};
-}
-
-Json pressed_keys(const PressedYarns& pressed) {
-  return {{"max_pressed_strain", rounded(pressed.largest)},
-          {"area_share_pressed_over_2_percent", rounded(pressed.share_above_2)},
-          {"area_share_pressed_over_5_percent", rounded(pressed.share_above_5)},
-          {"excess_length_mm", rounded(pressed.excess_mm)},
-          {"excess_length_at_mm", place(pressed.excess_at)}};
-}
-
-Json wrinkle_keys(const Wrinkle& wrinkle) {
-  return {{"wrinkle_height_mm", rounded(wrinkle.height)},
-          {"wrinkle_length_mm", rounded(wrinkle.wavelength)},
-          {"wrinkle_at_mm", place(wrinkle.at)}};
-}
-
-Json bridging_keys(const Bridging& bridging) {
-  Json keys{{"bridging_height_mm", rounded(bridging.height)},
-            {"bridging_area_mm2", rounded(bridging.area)}};
-  if (bridging.height > 0.0) keys["bridging_at_mm"] = place(bridging.at);
-  if (!bridging.family.empty())
-    keys.update({{"bridging_family", bridging.family},
-                 {"bridging_max_tension_N_per_yarn", rounded(bridging.largest_tension)},
-                 {"bridging_mean_tension_N_per_yarn", rounded(bridging.mean_tension)}});
-  return keys;
-}
-
-Json fibre_volume_keys(const FibreVolume& v) {
-  return {{"fibre_volume_mean", rounded(v.mean)},
-          {"fibre_volume_min", rounded(v.least)},
-          {"fibre_volume_min_at_mm", place(v.least_at)},
-          {"fibre_volume_max", rounded(v.largest)},
-          {"fibre_volume_max_at_mm", place(v.largest_at)}};
-}
-
-Json mould_keys(const MouldFill& mould) {
-  Json keys{{"mould_area_mm2", rounded(mould.area)},
-            {"mould_gap_min_mm", rounded(mould.least_gap)},
-            {"mould_gap_mean_mm", rounded(mould.mean_gap)},
-            {"mould_wider_area_mm2", rounded(mould.wider)},
-            {"mould_packed_area_mm2", rounded(mould.packed)},
-            {"max_gap_left_mm", rounded(mould.widest)}};
-  if (mould.widest > 0.0) keys["max_gap_left_at_mm"] = place(mould.widest_at);
-  return keys;
 }
 
 Json opening_object(const Opening& opening) {
@@ -124,66 +79,63 @@ Json stitch_keys(const std::vector<BrokenStitches>& stitches) {
   return {{"stitches", list}};
 }
 
-/// The keys of a ply that its report adds to those of its fields.
+/// What a name leads to: its last part, within the parts before.
+Json& at_path(Json& object, std::string_view name) {
+  Json* at = &object;
+  for (std::size_t dot; (dot = name.find('.')) != name.npos; name.remove_prefix(dot + 1))
+    at = &(*at)[std::string(name.substr(0, dot))];
+  return (*at)[std::string(name)];
+}
+
+Json figures_object(const PlyFrame& ply, const PlyReport* report) {
+  Json object{{"name", ply.name}, {"angle_deg", rounded(ply.angle_deg)}};
+  for (const FigureValue& one : figures_of(ply, report)) {
+    const double* number = std::get_if<double>(&one.value);
+    at_path(object, one.figure.name) =
+        number ? Json(rounded(*number)) : place(std::get<Vec3>(one.value));
+  }
+  return object;
+}
+
+/// Of what is no figure.
 Json report_keys(const PlyReport& report) {
-  Json keys = Json::object();
-  if (report.pressed) keys.update(pressed_keys(*report.pressed));
-  keys.update(wrinkle_keys(report.wrinkle));
-  if (report.bridging) keys.update(bridging_keys(*report.bridging));
-  if (report.fibre_volume) keys.update(fibre_volume_keys(*report.fibre_volume));
-  if (report.mould) keys.update(mould_keys(*report.mould));
-  if (report.locking_angle_deg) keys["locking_angle_deg"] = rounded(*report.locking_angle_deg);
-  if (report.beyond_locking_share)
-    keys["area_share_beyond_locking_angle"] = rounded(*report.beyond_locking_share);
-  if (report.max_stretch) keys["max_stretch"] = rounded(*report.max_stretch);
-  if (report.stretch_limit) keys["stretch_limit"] = rounded(*report.stretch_limit);
-  if (report.max_shear_rate) keys["max_shear_rate_per_s"] = rounded(*report.max_shear_rate);
-  if (report.measured_shear_rate)
-    keys["measured_shear_rate_per_s"] = rounded(*report.measured_shear_rate);
-  if (report.beyond_rate_share)
-    keys["area_share_beyond_measured_shear_rate"] = rounded(*report.beyond_rate_share);
-  if (report.beyond_stretch_share)
-    keys["area_share_beyond_stretch_limit"] = rounded(*report.beyond_stretch_share);
+  Json keys = draw_in_keys(report.draw_in);
+  if (report.bridging && !report.bridging->family.empty())
+    keys["bridging_family"] = report.bridging->family;
   if (!report.openings.empty()) keys["openings"] = list_of(report.openings, opening_object);
-  keys.update(draw_in_keys(report.draw_in));
   if (!report.stitches.empty()) keys.update(stitch_keys(report.stitches));
   return keys;
 }
 
-/// Values of all families of yarns in one list.
-std::vector<double> of_all(const PlyFrame& ply, std::vector<double> FamilyFrame::*values) {
-  std::vector<double> all;
-  for (const FamilyFrame& family : ply.families)
-    all.insert(all.end(), (family.*values).begin(), (family.*values).end());
-  return all;
+/// `reports`: one per ply, or empty if only the fields are known.
+Json plies_list(const std::vector<PlyFrame>& plies, const std::vector<PlyReport>& reports) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < plies.size(); ++i) {
+    const PlyReport* report = reports.empty() ? nullptr : &reports.at(i);
+    list.push_back(figures_object(plies[i], report));
+    if (report) list.back().update(report_keys(*report));
+  }
+  return list;
 }
 
-Json ply_object(const PlyFrame& ply) {
-  const std::vector<double> areas = areas_before(ply);
-  const std::vector<double> strains = of_all(ply, &FamilyFrame::strain);
-  const std::vector<double> tensions = of_all(ply, &FamilyFrame::tension);
-  Json object{{"name", ply.name},
-              {"angle_deg", rounded(ply.angle_deg)},
-              {"max_shear_deg", rounded(largest_magnitude(ply.shear_deg))},
-              {"p99_shear_deg", rounded(percentile(ply.shear_deg, areas, 0.99))},
-              {"rms_shear_deg", rounded(root_mean_square(ply.shear_deg, areas))},
-              {"max_fibre_strain", rounded(largest(strains))},
-              {"min_fibre_strain", rounded(smallest(strains))},
-              {"max_tension_N_per_yarn", rounded(largest(tensions))}};
-  if (!ply.temperature.empty())
-    object.update({{"mean_temperature_C", rounded(mean_of_nodes(ply, ply.temperature))},
-                   {"min_temperature_C", rounded(smallest(ply.temperature))},
-                   {"max_temperature_C", rounded(largest(ply.temperature))}});
+Json description_object(const Figure& figure) {
+  Json object{{"label", figure.label}, {"unit", figure.unit}, {"digits", figure.digits}};
+  if (!figure.note.empty()) object["note"] = figure.note;
+  if (!figure.verified.empty()) object["verified"] = figure.verified;
+  object["compared"] = figure.compared;
   return object;
 }
 
-/// `reports`: one per ply, or empty if only the fields are known.
-Json plies_list(const std::vector<PlyFrame>& plies, const std::vector<PlyReport>& reports) {
-  Json list = list_of(plies, ply_object);
-  if (!reports.empty())
-    for (std::size_t i = 0; i < plies.size(); ++i)
-      list[i].update(report_keys(reports.at(i)));
-  return list;
+/// What the figures are that the plies have, and those of the run.
+Json descriptions(const std::vector<PlyFrame>& plies, const std::vector<PlyReport>& reports) {
+  Json of_plies = Json::object(), of_run = Json::object();
+  for (std::size_t i = 0; i < plies.size(); ++i)
+    for (const FigureValue& one : figures_of(plies[i], reports.empty() ? nullptr : &reports.at(i)))
+      if (std::holds_alternative<double>(one.value))
+        of_plies[one.figure.name] = description_object(one.figure);
+  for (const Figure& figure : figures_of_runs())
+    of_run[figure.name] = description_object(figure);
+  return {{"plies", of_plies}, {"run", of_run}};
 }
 
 // Tools, boundaries, pairs.
@@ -362,7 +314,8 @@ std::string summary_json(const Frame& last, const Summary& summary) {
               {"missing", summary.work.missing},
               {"doubts", summary.doubts},
               {"advice", advice_of(summary)},
-              {"case", case_object(summary)}};
+              {"case", case_object(summary)},
+              {"figures", descriptions(last.plies, summary.plies)}};
   if (!summary.verification.figures.empty())
     all["verification"] = verification_object(summary.verification);
   // Names and messages may contain any bytes: those that are not UTF-8 become U+FFFD.

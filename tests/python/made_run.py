@@ -111,7 +111,24 @@ def summary(plies=("lower", "upper"), tools=("punch",), grips=("grip",)) -> dict
                         "intersections_between_plies": 0, "intersections_within_plies": 0},
             "pairs": [{"a": plies[0], "b": tools[0], "deepest_mm": 0.1}],
             "assumed": ["something"], "could_be_left_out": [], "missing": ["do not trust it", "a finer mesh"],
-            "doubts": ["do not trust it"], "advice": ["a finer mesh"]}
+            "doubts": ["do not trust it"], "advice": ["a finer mesh"], "figures": figures()}
+
+
+def figures() -> dict:
+    """What plyform says of some of them: path, label, unit, digits."""
+    of_plies = (("max_shear_deg", "largest shear", "deg", 1),
+                ("p99_shear_deg", "shear that 99 % have less than", "deg", 1),
+                ("rms_shear_deg", "shear, rms", "deg", 1),
+                ("area_share_beyond_locking_angle", "area beyond locking", "1", 1),
+                ("max_pressed_strain", "largest compression", "1", 2),
+                ("wrinkle_height_mm", "highest wrinkle", "mm", 2),
+                ("draw_in_mm.mean", "draw-in", "mm", 1))
+    of_run = (("stroke_mm", "stroke", "mm", 2), ("wall_time_s", "time", "s", 1))
+    verified = {"rms_shear_deg": "shear", "draw_in_mm.mean": "draw-in"}
+    return {kind: {name: {"label": label, "unit": unit, "digits": digits, "compared": True,
+                          **({"verified": verified[name]} if name in verified else {})}
+                   for name, label, unit, digits in rows}
+            for kind, rows in (("plies", of_plies), ("run", of_run))}
 
 
 HISTORY = """time_s,stroke_mm,punch_force_N,grip_force_N,fibre_mJ,shear_mJ,kinetic_mJ

@@ -20,30 +20,11 @@ FIGURE = {"name": TEXT, "unit": TEXT, "value": NUMBER, "band": NUMBER, "no_band"
 STITCH = {"name": TEXT, "largest_broken_patch_at_mm": POINT,
           **dict.fromkeys(("broken_length_share", "broken_area_mm2", "largest_broken_patch_mm2"),
                           NUMBER)}
-PLY = {"name": TEXT, "stitches": (STITCH,), "wrinkle_at_mm": POINT,
-       "bridging_at_mm": POINT, "bridging_family": TEXT, "fibre_volume_min_at_mm": POINT,
-       "fibre_volume_max_at_mm": POINT, "max_gap_left_at_mm": POINT, "excess_length_at_mm": POINT, "no_draw_in": TEXT,
-       "draw_in_mm": {"mean": NUMBER, "largest": NUMBER}, "draw_in_yarns_mm": WALKS,
-       "draw_in_bisectors_mm": WALKS,
-       "openings": ({"family": TEXT, "at_mm": POINT,
-                     **dict.fromkeys(("largest", "limit", "area_mm2_beyond_limit",
-                                      "area_share_beyond_limit"), NUMBER)},),
-       **dict.fromkeys(("angle_deg", "max_shear_deg", "p99_shear_deg", "rms_shear_deg",
-                        "max_fibre_strain", "min_fibre_strain", "max_tension_N_per_yarn",
-                        "max_pressed_strain", "area_share_pressed_over_2_percent",
-                        "area_share_pressed_over_5_percent", "excess_length_mm",
-                        "wrinkle_height_mm", "wrinkle_length_mm", "locking_angle_deg",
-                        "area_share_beyond_locking_angle", "bridging_height_mm",
-                        "bridging_area_mm2", "bridging_max_tension_N_per_yarn",
-                        "bridging_mean_tension_N_per_yarn", "max_stretch", "stretch_limit",
-                        "area_share_beyond_stretch_limit", "fibre_volume_mean",
-                        "fibre_volume_min", "fibre_volume_max", "mould_area_mm2",
-                        "mould_gap_min_mm", "mould_gap_mean_mm",
-                        "mould_wider_area_mm2", "mould_packed_area_mm2", "max_gap_left_mm",
-                        "mean_temperature_C", "min_temperature_C", "max_temperature_C",
-                        "max_shear_rate_per_s", "measured_shear_rate_per_s",
-                        "area_share_beyond_measured_shear_rate"), NUMBER)}
-# {...: kind}: any key; (kind,): a list of any length
+PLY = {"name": TEXT, "stitches": (STITCH,), "bridging_family": TEXT, "no_draw_in": TEXT,
+       "draw_in_mm": {...: NUMBER}, "draw_in_yarns_mm": WALKS, "draw_in_bisectors_mm": WALKS,
+       "openings": ({"family": TEXT, "at_mm": POINT, ...: NUMBER},), ...: NUMBER}
+DESCRIBED = {...: {"label": TEXT, "unit": TEXT, "note": TEXT, "verified": TEXT, "digits": NUMBER}}
+# {...: kind}: any other key, those of places (_at_mm) points; (kind,): a list of any length
 SUMMARY = {
     **dict.fromkeys(("title", "version", "status", "message"), TEXT),
     **dict.fromkeys(("time_s", "stroke_mm", "wall_time_s", "steps", "threads", "elements", "nodes",
@@ -56,7 +37,7 @@ SUMMARY = {
                                         "intersections_within_plies")},
     "pairs": ({"a": TEXT, "b": TEXT},), "assumed": (TEXT,), "could_be_left_out": (TEXT,),
     "missing": (TEXT,), "doubts": (TEXT,), "advice": (TEXT,), "case": {...: TEXT},
-    "verification": {"figures": (FIGURE,)}}
+    "verification": {"figures": (FIGURE,)}, "figures": {"plies": DESCRIBED, "run": DESCRIBED}}
 STATUSES = ("done", "doubtful", "stopped", "interrupted")
 NEEDED = ("status", "plies", "tools", "energy", "contact")
 
@@ -86,7 +67,8 @@ def check(path: Path, where: str, kind, value) -> None:
         raise wrong(path, where, kind, value)
     if isinstance(kind, dict):
         for key, inner in value.items():
-            if (want := kind.get(key, kind.get(...))) is not None:
+            other = POINT if key.endswith("_at_mm") else kind.get(...)
+            if (want := kind.get(key, other)) is not None:
                 check(path, f"{where}.{key}" if where else key, want, inner)
     elif not isinstance(kind, str):
         for i, inner in enumerate(value):

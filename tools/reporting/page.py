@@ -12,6 +12,7 @@ from base.ending import one_line
 from base.files import read_text
 from base.progress import doing, told
 from base.results_file import Column
+from base.summary_figures import described
 from plotting.reading import Trouble
 
 from . import answers, fibre_volume, series
@@ -41,7 +42,7 @@ def page_of(runs: list[Run]) -> str:
     shelf = jinja2.Environment(loader=jinja2.FileSystemLoader(WEB), autoescape=True,
                                trim_blocks=True, lstrip_blocks=True,
                                undefined=jinja2.StrictUndefined)
-    shelf.globals.update(number=answers.number, percent=answers.percent, small=answers.small, sentence=answers.sentence)
+    shelf.globals.update(number=answers.number, small=answers.small, sentence=answers.sentence)
     texts = [texts_of(run, k) | {"title": title} for k, (run, title) in enumerate(zip(runs, titles))]
     ids = {chart["id"]: chart for run in scene["runs"] for chart in run["charts"]}
     histograms = {one["id"]: one for run in scene["runs"] for one in run["histograms"]}
@@ -103,8 +104,7 @@ def texts_of(run: Run, index: int) -> dict:
             "verdict": words, "answers": found, "doubts": answers.doubts(run),
             "summary": run.summary, "run": run, "triangles": sum(len(p.triangles) for p in run.plies),
             "plies": [(ply, run.summary_of(ply.name)) for ply in run.plies],
-            "bridging": bool(answers.bridging(run, index)),
-            "temperature": any("mean_temperature_C" in run.summary_of(ply.name) for ply in run.plies),
+            "figures": [one for one in described(run.summary or {}, "plies").values() if one.compared],
             "tools": [(tool, np.nanmax(abs(tool.force_N), initial=0.0)) for tool in run.tools]}
 
 

@@ -3,9 +3,12 @@
 #include "core/results/result_fields.hpp"
 #include "support/example_results.hpp"
 
+#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 namespace plyform::summary_json_test {
 namespace {
@@ -74,7 +77,8 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   const Summary summary = made_up_summary();
   Frame frame = unequal(10, -20);
   frame.boundaries = {{"upper grip", 1.5, 20, {20, 3, 4}}};
-  const Json json = read_back(frame, summary);
+  Json json = read_back(frame, summary);
+  json.erase("figures"); // below
   for (const char* key : {"steps", "threads", "elements", "nodes", "searches"})
     EXPECT_TRUE(json.at(key).is_number_integer()) << key; // 4 and 4.0 compare as equal below
   EXPECT_EQ(json, Json::parse(R"({
@@ -151,16 +155,17 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   "area_share_pressed_over_5_percent": 0.04, "excess_length_mm": 2.5,
   "excess_length_at_mm": [1, 2, 3], "wrinkle_height_mm": 1.5, "wrinkle_length_mm": 40,
   "wrinkle_at_mm": [4, 5, 6], "bridging_height_mm": 5.5, "bridging_area_mm2": 120,
-  "bridging_at_mm": [1, 0, 2], "bridging_family": "warp",
+  "bridging_at_mm": [1, 0, 2],
   "bridging_max_tension_N_per_yarn": 0.5, "bridging_mean_tension_N_per_yarn": 0.25,
   "locking_angle_deg": 45, "area_share_beyond_locking_angle": 0.125,
-  "openings": [{"family": "tow", "largest": 0.2, "at_mm": [7, 8, 9], "limit": 0.1,
-                "area_mm2_beyond_limit": 500, "area_share_beyond_limit": 0.25}],
   "draw_in_mm": {"mean": 5, "largest": 12},
   "draw_in_yarns_mm": {"mean": 2.5, "spread": 3, "directions_deg": [315, 45, 135, 225],
                        "each": [1, 2, 3, 4]},
   "draw_in_bisectors_mm": {"mean": 7.5, "spread": 7, "directions_deg": [0, 90, 180, 270],
-                           "each": [5, 6, 7, 12]}
+                           "each": [5, 6, 7, 12]},
+  "bridging_family": "warp",
+  "openings": [{"family": "tow", "largest": 0.2, "at_mm": [7, 8, 9], "limit": 0.1,
+                "area_mm2_beyond_limit": 500, "area_share_beyond_limit": 0.25}]
 })"));
   report = {};
   report.draw_in.unknown = "why";
@@ -172,6 +177,51 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   "wrinkle_height_mm": 0, "wrinkle_length_mm": 0, "wrinkle_at_mm": [0, 0, 0],
   "bridging_height_mm": 0, "bridging_area_mm2": 0, "no_draw_in": "why"
 })"));
+}
+
+/// The numbers of an object by their paths, of objects within it too.
+void each_path(const Json& object, const std::string& before,
+               const std::function<void(const std::string&)>& visit) {
+  for (const auto& [key, value] : object.items())
+    if (value.is_object())
+      each_path(value, before + key + ".", visit);
+    else if (value.is_number())
+      visit(before + key);
+}
+
+TEST(SummaryJson, DescribesEveryNumberOfAPlyAndNoOther) {
+  Frame frame = unequal(10, -20);
+  frame.plies[0].temperature = {20, 30, 40, 50};
+  PlyReport report;
+  report.pressed = PressedYarns{};
+  report.bridging = {5.5, {1, 0, 2}, 120, "warp", 0.5, 0.25};
+  report.fibre_volume = FibreVolume{};
+  report.mould = MouldFill{};
+  report.locking_angle_deg = 45, report.beyond_locking_share = 0.125;
+  report.max_stretch = 1.5, report.stretch_limit = 2, report.beyond_stretch_share = 0;
+  report.max_shear_rate = 1, report.measured_shear_rate = 2, report.beyond_rate_share = 0;
+  Summary summary;
+  summary.plies = {report};
+  const Json json = read_back(frame, summary);
+  std::map<std::string, Json> described = json.at("figures").at("plies");
+  const auto check = [&](const std::string& path) {
+    if (path == "angle_deg" || path.find("_yarns_") != path.npos ||
+        path.find("_bisectors_") != path.npos)
+      return; // what the ply is; walks one by one
+    ASSERT_TRUE(described.contains(path)) << path;
+    EXPECT_FALSE(described.at(path).at("label").get<std::string>().empty()) << path;
+    described.erase(path);
+  };
+  each_path(json.at("plies").at(0), "", check);
+  EXPECT_TRUE(described.empty()) << described.begin()->first;
+  EXPECT_EQ(json.at("figures").at("plies").at("rms_shear_deg"),
+            Json::parse(
+                R"({"label": "shear, rms", "unit": "deg", "digits": 1, "note": "over the area",
+        "verified": "shear", "compared": true})"));
+  for (const auto& [path, one] : json.at("figures").at("run").items())
+    EXPECT_TRUE(
+        json.contains(Json::json_pointer("/" + std::regex_replace(path, std::regex("[.]"), "/"))))
+        << path;
 }
 
 TEST(SummaryJson, HasTheKeysOfAMould) {

@@ -4,6 +4,9 @@
 import math
 from dataclasses import dataclass
 
+from base.summary_figures import Figure as Described
+from base.summary_figures import described
+
 
 @dataclass(frozen=True)
 class Figure:
@@ -16,43 +19,21 @@ class Figure:
     of_ply: bool = False  # of a single one
 
 
-# of plies: key of the summary, label, unit, factor, by the name of the figure that has a band
-OF_PLIES = (("max_shear_deg", "largest shear", "°", 1.0, ""),
-            ("p99_shear_deg", "shear that 99 % have less than", "°", 1.0, ""),
-            ("rms_shear_deg", "shear, rms", "°", 1.0, "shear of "),
-            ("area_share_beyond_locking_angle", "area beyond locking", "%", 100.0, ""),
-            ("wrinkle_height_mm", "highest wrinkle", "mm", 1.0, ""),
-            ("bridging_height_mm", "bridging height", "mm", 1.0, ""),
-            ("bridging_area_mm2", "bridging area", "mm²", 1.0, ""),
-            ("fibre_volume_max", "largest fibre volume", "%", 100.0, ""),
-            ("max_gap_left_mm", "largest gap left", "mm", 1.0, ""),
-            ("mean_temperature_C", "mean temperature", "°C", 1.0, ""),
-            ("excess_length_mm", "excess length", "mm", 1.0, ""),
-            ("max_pressed_strain", "largest compression", "%", 100.0, "largest compression of "),
-            ("max_tension_N_per_yarn", "largest tension", "N per yarn", 1.0, ""))
-OF_RUN = ((("energy", "balance_error"), "error of the energy balance", "%", 100.0),
-          (("kinetic_over_deformation",), "kinetic energy over deformation", "%", 100.0),
-          (("accuracy", "promised_shear_error_deg"), "predicted error of shear", "°", 1.0),
-          (("contact", "max_ply_penetration_mm"), "penetration between plies", "mm", 1.0),
-          (("stroke_mm",), "stroke", "mm", 1.0), (("wall_time_s",), "time", "s", 1.0),
-          (("steps",), "steps", "", 1.0), (("elements",), "triangles", "", 1.0))
-KEY_FIGURES = ("largest shear", "highest wrinkle", "draw-in", "time")  # of a list of runs; and a force
+KEY_FIGURES = ("max_shear_deg", "wrinkle_height_mm", "draw_in_mm.mean", "wall_time_s")  # of a list of runs; and a force
 
 
 def known(value: object) -> bool:
     return isinstance(value, (int, float)) and math.isfinite(value)
 
 
-def scaled(factor: float, value: float) -> float:
-    """With the nine digits that a summary has."""
-    return float(f"{factor * value:.9g}")
-
-
 def figures_of(summary: dict) -> list[Figure]:
     """First those of the whole run: the worst of its plies, forces, errors; then of each ply."""
     bands = {one["name"]: one.get("band") for one in summary.get("verification", {}).get("figures", [])
              if "name" in one}
-    of_plies = [(ply["name"], ply_figures(ply, bands)) for ply in summary.get("plies", [])]
+    kinds = described(summary, "plies").values()
+    of_plies = [(ply["name"], [shown(one, value, bands.get(f"{one.verified} of {ply['name']}"))
+                               for one in kinds if one.compared and (value := one.of(ply)) is not None])
+                for ply in summary.get("plies", [])]
     labels = dict.fromkeys(one.label for _, figures in of_plies for one in figures)
     worst = [max((one for _, figures in of_plies for one in figures if one.label == label),
                  key=lambda one: one.value) for label in labels]
@@ -60,26 +41,25 @@ def figures_of(summary: dict) -> list[Figure]:
                      bands.get(f"force of {body['name']}"))
               for body in (*summary.get("tools", []), *summary.get("boundaries", []))
               if known(body.get("force_N"))]
-    of_run = [Figure(label, label, unit, scaled(factor, value)) for path, label, unit, factor in OF_RUN
-              if known(value := under(summary, path))]
+    of_run = [shown(one, value) for one in described(summary, "run").values()
+              if one.compared and (value := one.of(summary)) is not None]
     single = [Figure(f"{one.label} of {name}", f"{one.label} of {name}", one.unit, one.value, one.band, True)
               for name, figures in of_plies for one in figures]
     return [*worst, *forces, *of_run, *(single if len(of_plies) > 1 else [])]
 
 
-def ply_figures(ply: dict, bands: dict) -> list[Figure]:
-    found = [Figure(label, label, unit, scaled(factor, ply[key]), bands.get(named + ply["name"]) if named else None)
-             for key, label, unit, factor, named in OF_PLIES if known(ply.get(key))]
-    drawn = (ply.get("draw_in_mm") or {}).get("mean")
-    if known(drawn):
-        found.append(Figure("draw-in", "draw-in", "mm", drawn, bands.get(f"draw-in of {ply['name']}")))
+def shown(one: Described, value: float, band: float | None = None) -> Figure:
+    return Figure(one.label, one.label, one.shown_unit, value, band)
+
+
+def key_figures(summary: dict) -> list[Figure]:
+    labels = [kinds[name].label for name in KEY_FIGURES for kinds in (described(summary, "plies"),
+              described(summary, "run")) if name in kinds]
+    of_run = {one.label: one for one in figures_of(summary)}
+    found = [of_run[label] for label in labels if label in of_run]
+    if force := driven_force(summary):
+        found.insert(1, force)
     return found
-
-
-def under(summary: dict, path: tuple[str, ...]) -> object:
-    for key in path:
-        summary = summary.get(key) if isinstance(summary, dict) else None
-    return summary
 
 
 def driven_force(summary: dict) -> Figure | None:

@@ -11,7 +11,7 @@ from base.summary_file import read_summary
 
 from ..project.project import Project, Refused
 from ..runs.listing import folders_of_results, mark_of
-from .figures import KEY_FIGURES, driven_force, figures_of
+from .figures import figures_of, key_figures
 
 FILES = ("results.h5", "summary.json", "history.csv")  # that a report is made of
 
@@ -67,12 +67,4 @@ class ResultList:
         return {**run, "title": one_line(summary.get("title") or name), "status": summary["status"],
                 "message": one_line(summary.get("message", "")), "case": summary.get("case", {}),
                 "figures": [asdict(figure) for figure in figures_of(summary)],
-                "key_figures": key_figures(summary)}
-
-
-def key_figures(summary: dict) -> list[dict]:
-    figures = {one.label: one for one in figures_of(summary)}
-    found = [figures[label] for label in KEY_FIGURES if label in figures]
-    if force := driven_force(summary):
-        found.insert(1, force)
-    return [asdict(figure) for figure in found]
+                "key_figures": [asdict(figure) for figure in key_figures(summary)]}
