@@ -3,6 +3,7 @@
 
 #include "core/results/statistics.hpp"
 
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -132,11 +133,17 @@ void mould(const MouldFill& fill, Figures& add) {
 }
 
 /// Values beside the limits of fabrics.
-void limits(const PlyReport& report, Figures& add) {
+void limits(const PlyFrame& ply, const PlyReport& report, Figures& add) {
   add.number(figure("locking_angle_deg", "locking angle", "deg", 1, "of the fabric"),
              report.locking_angle_deg);
   add.number(compared("area_share_beyond_locking_angle", "area beyond locking", "1", 1),
              report.beyond_locking_share);
+  if (report.beyond_locking_share) {
+    const std::vector<double> areas = areas_before(ply);
+    add.number(figure("area_beyond_locking_angle_mm2", "area beyond the locking angle", "mm²", 0,
+                      "of the unformed ply"),
+               *report.beyond_locking_share * std::accumulate(areas.begin(), areas.end(), 0.0));
+  }
   add.number(figure("max_stretch", "largest stretch", "", 3, "of rubber"), report.max_stretch);
   add.number(figure("stretch_limit", "stretch limit", "", 3, "of the rubber"),
              report.stretch_limit);
@@ -163,7 +170,7 @@ std::vector<FigureValue> figures_of(const PlyFrame& ply, const PlyReport* report
   if (report->bridging) bridging(*report->bridging, add);
   if (report->fibre_volume) fibre_volume(*report->fibre_volume, add);
   if (report->mould) mould(*report->mould, add);
-  limits(*report, add);
+  limits(ply, *report, add);
   if (const DrawIn& d = report->draw_in; d.unknown.empty()) {
     add.number(compared("draw_in_mm.mean", "draw-in", "mm", 1, "mean of eight walks", "draw-in"),
                d.mean());

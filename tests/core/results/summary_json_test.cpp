@@ -158,6 +158,7 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   "bridging_at_mm": [1, 0, 2],
   "bridging_max_tension_N_per_yarn": 0.5, "bridging_mean_tension_N_per_yarn": 0.25,
   "locking_angle_deg": 45, "area_share_beyond_locking_angle": 0.125,
+  "area_beyond_locking_angle_mm2": 12.5,
   "draw_in_mm": {"mean": 5, "largest": 12},
   "draw_in_yarns_mm": {"mean": 2.5, "spread": 3, "directions_deg": [315, 45, 135, 225],
                        "each": [1, 2, 3, 4]},
