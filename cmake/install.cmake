@@ -59,12 +59,12 @@ set(public_headers
   core/model/viscous_shear.hpp
   core/results/bridging.hpp
   core/results/broken_stitches.hpp
-  core/results/description.hpp
+  core/model/description.hpp
   core/results/draw_in.hpp
   core/results/export.hpp
   core/results/frame.hpp
   core/results/mould_fill.hpp
-  core/results/ply_frame.hpp
+  core/model/ply_frame.hpp
   core/results/result_writer.hpp
   core/results/size_file.hpp
   core/results/summary.hpp

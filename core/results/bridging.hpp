@@ -6,7 +6,7 @@
 // half of the ply's thickness.
 #pragma once
 
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 
 #include <string>
 

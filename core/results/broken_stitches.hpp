@@ -3,7 +3,7 @@
 // unformed ply, so that the share of their length is that of the area.
 #pragma once
 
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 
 #include <string>
 #include <vector>

@@ -8,7 +8,7 @@
 // middle. Holes are ignored. With planes of symmetry the middle is that of the modelled part.
 #pragma once
 
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 
 #include <array>
 #include <string>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/model/energies.hpp"
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 
 #include <string>
 #include <vector>

@@ -8,7 +8,7 @@
 //   packed: the packing is 0.999 or more
 #pragma once
 
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 
 #include <optional>
 

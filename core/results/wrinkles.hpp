@@ -39,7 +39,7 @@
 #pragma once
 
 #include "base/geometry.hpp"
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 
 #include <vector>
 

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "core/model/case.hpp"
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 #include "core/setup/chord_sizes.hpp"
 
 namespace plyform {

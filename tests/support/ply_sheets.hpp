@@ -2,7 +2,7 @@
 // Made-up formed plies for the tests of what results say of a ply.
 #pragma once
 
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 
 #include <cmath>
 #include <functional>

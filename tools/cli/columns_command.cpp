@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/format.hpp"
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <stdexcept>

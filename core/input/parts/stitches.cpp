@@ -5,7 +5,7 @@
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/stitch_keys.hpp"
 #include "core/input/parts/yarn_families.hpp"
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 
 #include <algorithm>
 #include <cmath>

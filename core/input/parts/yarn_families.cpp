@@ -8,7 +8,7 @@
 #include "core/input/parts/crimp_file.hpp"
 #include "core/input/parts/viscous_file.hpp"
 #include "core/model/fabric_estimates.hpp"
-#include "core/results/ply_frame.hpp"
+#include "core/model/ply_frame.hpp"
 
 #include <algorithm>
 #include <cmath>

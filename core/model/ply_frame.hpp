@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/geometry.hpp"
-#include "core/results/description.hpp"
+#include "core/model/description.hpp"
 
 #include <array>
 #include <limits>
