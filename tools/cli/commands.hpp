@@ -148,6 +148,8 @@ int theory_command(const TheoryArguments& arguments);
 /// tools/cli/identify/identify_options.cpp: adds a subcommand for each test, with its options,
 /// which store to `to`; that must live as long as the apps.
 void add_identify_tests(CLI::App& command, IdentifyArguments& to);
+/// The tests with their options, for programs.
+std::string identify_tests_json();
 void add_theory_tests(CLI::App& command, TheoryArguments& to);
 
 } // namespace plyform

@@ -51,7 +51,8 @@ struct Arguments {
   TheoryArguments theory;
   bool markdown = false;  ///< keys as a page
   bool keys_json = false; ///< keys for programs
-  bool units = false;     ///< units in the place of keys
+  bool keys_identify = false;
+  bool units = false; ///< units in the place of keys
   std::vector<std::string> families{"warp", "weft"};
 };
 
@@ -149,7 +150,15 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
       ->excludes("--markdown");
   keys->add_flag("--units", to.units, "the units that columns and options of curves may be in")
       ->excludes("--markdown");
-  commands.push_back({keys, [&to] { return keys_command(to.markdown, to.keys_json, to.units); }});
+  keys->add_flag("--identify", to.keys_identify, "the tests of plyform identify, as JSON")
+      ->excludes("--markdown")
+      ->excludes("--units");
+  commands.push_back({keys, [&to] {
+                        if (!to.keys_identify)
+                          return keys_command(to.markdown, to.keys_json, to.units);
+                        plyform::fmt::print("{}\n", identify_tests_json());
+                        return static_cast<int>(exit_done);
+                      }});
 
   CLI::App* columns = app.add_subcommand("columns", "list the columns that results have of a ply");
   columns->add_option("families", to.families, "names of its families of yarns")

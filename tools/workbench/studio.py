@@ -32,8 +32,17 @@ class Studio:
     @cached_property
     def keys(self) -> list[dict]:
         """The program's table of keys. Raises Refused."""
+        return self.told("--json")
+
+    @cached_property
+    def identify_tests(self) -> list[dict]:
+        """The tests of plyform identify, with their options. Raises Refused."""
+        return self.told("--identify")
+
+    def told(self, option: str) -> list[dict]:
+        """By `plyform keys`. Raises Refused."""
         try:
-            said = subprocess.run([self.program, "keys", "--json"], stdin=subprocess.DEVNULL, capture_output=True,
+            said = subprocess.run([self.program, "keys", option], stdin=subprocess.DEVNULL, capture_output=True,
                                   timeout=60.0, check=True).stdout
             return json.loads(said)
         except (OSError, subprocess.SubprocessError, ValueError) as problem:

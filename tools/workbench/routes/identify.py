@@ -14,7 +14,6 @@ from base.ending import Trouble, one_line
 from base.files import is_file, read_bytes
 
 from ..identify import curve_files
-from ..identify.tests import TESTS
 from ..project.project import Project, Refused, plain_name
 from ..studies import files as study_files
 from ..studio import Studio
@@ -32,7 +31,7 @@ def routes(studio: Studio) -> APIRouter:
 
     @router.get("/identify/tests")
     def tests() -> list[dict]:
-        return TESTS
+        return [shown(test) for test in studio.identify_tests]
 
     @router.get("/identify/files")
     def files() -> dict:
@@ -55,9 +54,22 @@ def routes(studio: Studio) -> APIRouter:
         record = studio.processes.record(number)
         if record["kind"] != "identify":
             raise Refused(f"process {number} is no identification", 404)
-        return {"record": record, "log": studio.processes.log(number), **found(project, record)}
+        return {"record": record, "log": studio.processes.log(number), **found(studio, record)}
 
     return router
+
+
+def shown(test: dict) -> dict:
+    """As a page has it: options above and below "more", and the kind of specimens beside the first."""
+    options, others = test["options"], [one for one in test["options"] if one["kind"] == "files"]
+    return {"word": test["name"], "title": test["title"], "gives": test["gives"], "curve": test["curve"],
+            "fabric": test["changes_fabric"], "others": others[0] if others else None,
+            "sizes": [one for one in options if one["place"] == "size"],
+            "corrections": [one for one in options if one["place"] == "more" and one not in others]}
+
+
+def test_of(studio: Studio, word) -> dict | None:
+    return next((shown(one) for one in studio.identify_tests if one["name"] == word), None)
 
 
 def forget_reports(studio: Studio) -> None:
@@ -142,7 +154,7 @@ def output_file(studio: Studio, order: dict, beside: Path) -> Path:
 def ordered(studio: Studio, order: dict) -> tuple[list, dict]:
     """The command, and what its record keeps. Raises Refused."""
     project = studio.project
-    test = next((one for one in TESTS if one["word"] == order.get("test")), None)
+    test = test_of(studio, order.get("test"))
     if test is None:
         raise Refused(f"there is no test {one_line(order.get('test'), 60)}", 422)
     values = order.get("values") if isinstance(order.get("values"), dict) else {}
@@ -180,8 +192,9 @@ def plain(value):
     return value if not isinstance(value, float) or math.isfinite(value) else None
 
 
-def found(project: Project, record: dict) -> dict:
+def found(studio: Studio, record: dict) -> dict:
     """The report, and the rows measured and fitted; null where there is none (yet)."""
+    project = studio.project
     told = {"report": None, "fit": None, "text": None}
     try:
         file = project.own / REPORTS / Path(record["about"]["report"]).name
@@ -190,7 +203,7 @@ def found(project: Project, record: dict) -> dict:
         rows = project.inside(record["about"]["output"].removesuffix(".toml") + "_fit.csv")
         if told["report"] and told["report"].get("status") == "done" and is_file(rows):
             told["fit"] = columns_of(*study_files.csv_rows(rows))
-            if record["about"]["test"] in [one["word"] for one in TESTS if not one["fabric"]]:
+            if not test_of(studio, record["about"]["test"])["fabric"]:
                 told["text"] = read_bytes(project.inside(record["about"]["output"]), MOST_REPORT).decode("utf-8")
     except (Trouble, OSError, ValueError, KeyError) as problem:
         told["trouble"] = one_line(problem)
