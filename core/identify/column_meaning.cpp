@@ -25,10 +25,10 @@ constexpr Words words_of_quantities[] = {
     {"tenacity energy work torque moment temperature width thickness diameter speed rate velocity "
      "acceleration",
      Q::other},
-    {"stress spannung \xCF\x83", Q::stress},
+    {"stress pressure spannung druck \xCF\x83", Q::stress},
     {"stretch lambda \xCE\xBB", Q::stretch},
     {"angle gamma winkel \xCE\xB3", Q::angle},
-    {"strain dehnung \xCE\xB5", Q::strain},
+    {"strain dehnung fraction vf \xCE\xB5", Q::strain},
     {"force load kraft", Q::force},
     {"extension displacement elongation crosshead stroke travel deflection weg overhang length",
      Q::length},

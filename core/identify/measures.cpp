@@ -91,6 +91,7 @@ std::optional<OtherMeasure> first_of(const NamedMeasure (&list)[n], const std::s
 
 std::optional<OtherMeasure> other_measure(const std::string& name, Quantity quantity,
                                           const std::string& wanted) {
+  if (wanted == "thickness or fibre volume") return std::nullopt; // what others are not to be
   if (const auto found = first_of(measures, name, quantity)) return found;
   if (wanted == "shear angle") return first_of(shear_angles, name, quantity);
   if (wanted == "overhang") return first_of(overhangs, name, quantity);

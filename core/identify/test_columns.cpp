@@ -60,4 +60,15 @@ CurveColumns zone_columns() {
   return columns;
 }
 
+CurveColumns compaction_columns() {
+  CurveColumns columns;
+  columns.x_word = columns.x_wanted = "thickness or fibre volume";
+  columns.x_preferred = "thickness volume fraction gap";
+  columns.x_also = Quantity::strain;
+  columns.x_hint = "give --x-unit mm if it is a thickness";
+  columns.y_word = "pressure";
+  columns.y_is = Quantity::stress;
+  return columns;
+}
+
 } // namespace plyform

@@ -17,5 +17,7 @@ CurveColumns rubber_columns(bool displacement, bool force);
 CurveColumns three_point_columns();
 CurveColumns cantilever_columns(CantileverReading reading);
 CurveColumns zone_columns();
+/// Thickness or fibre volume fraction, and pressure.
+CurveColumns compaction_columns();
 
 } // namespace plyform

@@ -16,6 +16,9 @@
 
 namespace plyform {
 
+/// Fibre volume fraction of circles that touch all round, pi / (2 sqrt(3)): no fibres are denser.
+inline constexpr double densest_packing = 0.9069;
+
 /// Thickness and pressure at successive points: from the unformed thickness without pressure down
 /// to the densest packing.
 struct ThicknessCurve {

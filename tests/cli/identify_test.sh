@@ -4,7 +4,7 @@
 #   tests/cli/identify_test.sh PROGRAM CASES_FOLDER
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
-program=$1 fabric=$2/fabrics/glass_plain_weave.toml
+program=$1 cases=$2 fabric=$2/fabrics/glass_plain_weave.toml
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp "$fabric" "$folder/glass.toml"
@@ -509,6 +509,18 @@ expect 2 'must be one for each of the 3 curves' identify pull-out pull_0.2.csv p
   --speeds 0.2 1 --pressures 0.05 0.05 0.05 --viscosity 400 --area 4000 -o never.toml
 expect 2 'may have only letters' identify pull-out pull_0.2.csv pull_1.csv pull_5.csv --speeds 0.2 1 5 \
   --pressures 0.05 0.05 0.05 --viscosity 400 --area 4000 --name 'a]b' -o never.toml
+
+printf '%s\n' 'fibre volume fraction,pressure (kPa)' 0.52,0 0.545,101.4 0.570,344.7 0.600,827.4 \
+  0.665,2757.9 0.685,6894.8 >pressed.csv
+pressed_base=$cases/fabrics/glass_plain_weave_compaction.toml
+expect 0 'table of 6 rows' identify compaction pressed.csv --fabric "$pressed_base" -o pressed.toml
+grep -q '0.4127967, 0.3447' pressed.toml || fail "pressed.toml: $(cat pressed.toml)"
+expect 0 'Va = ' identify compaction pressed.csv --law gutowski --fabric "$pressed_base" -o pressed.toml
+expect 2 'no packing goes above' identify compaction pressed.csv --x-unit % --fabric "$pressed_base" \
+  -o never.toml --x-column 2 --y-column 1 --y-unit MPa
+expect 2 'must be greater than 0' identify compaction pressed.csv --layers 0 --fabric "$pressed_base" -o never.toml
+expect 2 'is missing: fibre volumes follow' identify compaction pressed.csv \
+  --fabric "$cases/fabrics/glass_pp_plain.toml" -o never.toml
 
 echo "$failures failed"
 [ "$failures" = 0 ]

@@ -215,6 +215,27 @@ def pull_out(page, server):
     page.until(lambda: page.find("#identify-fabric").is_displayed(), "a fabric is asked for again")
 
 
+def compaction(page, server):
+    """Eight plies between plates, in bar: a law of the fabric, and how thick it is without pressure."""
+    volumes = [0.40 + 0.02 * k for k in range(12)]
+    rows = [f"{8 * 600e-12 / 2.55e-9 / v:.9g},{600 * (v**9 - 0.4**9):.9g}" for v in volumes]  # fibres: 600 g/m2
+    (server.folder / "pressed.csv").write_text("\n".join(["gap_mm,pressure_bar", *rows]) + "\n", encoding="utf-8")
+    page.go(server, "identify/curve/pressed.csv")
+    page.pick("#identify-test", "compaction")
+    page.pick("#identify-fabric", "cloth/pressed_base.toml")
+    page.type("#identify-output", "pressed")
+    page.press("#identify-replace")
+    again(page, {"layers": "8", "law": "toll_manson", "x-column": "gap_mm", "x-unit": "mm", "y-unit": "bar"},
+          "compaction law")
+    found = tomllib.loads((server.folder / "cloth/pressed.toml").read_text(encoding="utf-8"))
+    law = found["compaction"]
+    assert abs(law["stiffness"] / 60 - 1) < 1e-3 and abs(law["exponent"] / 9 - 1) < 1e-3, law
+    assert abs(found["thickness"] / (600e-12 / 2.55e-9 / 0.4) - 1) < 1e-3, found
+    page.until(lambda: len(page.texts("#identify-numbers tbody th")) > 3, "its numbers are shown")
+    assert page.js("return document.querySelectorAll('#identify-chart circle.point').length") == 12
+    assert page.texts("#identify-chart .of-axis") == ["pressure, N/mm²", "thickness, mm"]
+
+
 def taken_in(page, server):
     """A file that is chosen on the page lies in the folder, and its curve is there at once."""
     source = server.folder.parent / f"{90 * 'x'}.csv"
@@ -339,6 +360,7 @@ def main():
         page.server = server
         server.folder.joinpath("cloth").mkdir()
         shutil.copy(CASES / "fabrics/glass_pp_plain.toml", server.folder / "cloth/base.toml")
+        shutil.copy(CASES / "fabrics/glass_plain_weave_compaction.toml", server.folder / "cloth/pressed_base.toml")
         shutil.copytree(CASES / "measured", server.folder / "measured")
         options_are_those_of_the_program(server)
         frame(page, server)
@@ -350,6 +372,7 @@ def main():
         every_option(page, server)
         two_kinds(page, server)
         pull_out(page, server)
+        compaction(page, server)
         taken_in(page, server)
         restarted(page, server)
         hostile(server)

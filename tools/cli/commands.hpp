@@ -77,10 +77,11 @@ struct IdentifyArguments {
   std::string report; ///< JSON file, or empty
   SpecimenArguments specimen;
   std::optional<int> coefficients, points; ///< of a polynomial, of a table of shear
-  /// Of shear: polynomial, static or table; of rubber: neo_hookean or mooney_rivlin; empty: chosen.
+  /// The form, as the test's choices have it; empty: chosen.
   std::string law;
   double from = 0.0, to = std::numeric_limits<double>::infinity(); ///< degrees, strain, or share
   double yarns = 1.0, gauge_length = 1.0;                          ///< -, mm
+  double layers = 1.0;                                             ///< of a compaction test
   std::string compliance, zero, toe,
       slip;                      ///< numbers (mm/N, N, mm or strain), or fit; empty: not given
   std::string direction;         ///< warp, weft or both

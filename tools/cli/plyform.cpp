@@ -103,6 +103,24 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   add_script(app, commands, "chart", "study", "run a study of a case, as tools/study does", true);
 }
 
+void add_keys(CLI::App& app, Arguments& to, std::vector<Command>& commands) {
+  CLI::App* keys = app.add_subcommand("keys", "list every key of case and fabric files");
+  keys->add_flag("--markdown", to.markdown, "as a page of tables");
+  keys->add_flag("--json", to.keys_json, "for programs, with all that a form needs")
+      ->excludes("--markdown");
+  keys->add_flag("--units", to.units, "the units that columns and options of curves may be in")
+      ->excludes("--markdown");
+  keys->add_flag("--identify", to.keys_identify, "the tests of plyform identify, as JSON")
+      ->excludes("--markdown")
+      ->excludes("--units");
+  commands.push_back({keys, [&to] {
+                        if (!to.keys_identify)
+                          return keys_command(to.markdown, to.keys_json, to.units);
+                        plyform::fmt::print("{}\n", identify_tests_json());
+                        return static_cast<int>(exit_done);
+                      }});
+}
+
 void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& commands) {
   add_script(app, commands, "report", "report", "make a page of a run, or two, for any browser");
   add_script(app, commands, "map", "map",
@@ -144,21 +162,7 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
   add_theory_tests(*theory, to.theory);
   commands.push_back({theory, [&to] { return theory_command(to.theory); }});
 
-  CLI::App* keys = app.add_subcommand("keys", "list every key of case and fabric files");
-  keys->add_flag("--markdown", to.markdown, "as a page of tables");
-  keys->add_flag("--json", to.keys_json, "for programs, with all that a form needs")
-      ->excludes("--markdown");
-  keys->add_flag("--units", to.units, "the units that columns and options of curves may be in")
-      ->excludes("--markdown");
-  keys->add_flag("--identify", to.keys_identify, "the tests of plyform identify, as JSON")
-      ->excludes("--markdown")
-      ->excludes("--units");
-  commands.push_back({keys, [&to] {
-                        if (!to.keys_identify)
-                          return keys_command(to.markdown, to.keys_json, to.units);
-                        plyform::fmt::print("{}\n", identify_tests_json());
-                        return static_cast<int>(exit_done);
-                      }});
+  add_keys(app, to, commands);
 
   CLI::App* columns = app.add_subcommand("columns", "list the columns that results have of a ply");
   columns->add_option("families", to.families, "names of its families of yarns")

@@ -6,9 +6,6 @@
 
 namespace plyform {
 
-/// Fibre volume fraction of circles that touch all round, pi / (2 sqrt(3)): no fibres are denser.
-inline constexpr double densest_packing = 0.9069;
-
 /// Rows below fabrics.NAME.
 Rows compaction_rows();
 

@@ -3,10 +3,9 @@
 #include "base/format.hpp"
 #include "base/outputs.hpp"
 #include "base/text.hpp"
-#include "core/identify/test_columns.hpp"
-#include "tools/cli/identify/identify_parts.hpp"
 #include "tools/cli/identify/identify_rates.hpp"
 #include "tools/cli/identify/identify_rubber.hpp"
+#include "tools/cli/identify/identify_tests.hpp"
 
 #include <cmath>
 
@@ -73,30 +72,6 @@ Correction correction_of(const std::string& option, const std::string& text, boo
                  number ? (fit ? "must be a number or fit" : "must be a number") : "must be fit",
                  remedy, diagnostics);
   return result;
-}
-
-CurveColumns columns_of_test(const IdentifyArguments& a) {
-  if (is_shear_test(a.test)) {
-    CurveColumns columns = shear_columns(a.test == "frame");
-    columns.x_hint = "give --angle-column if it is a shear angle";
-    return columns;
-  }
-  if (a.test == "three-point") return three_point_columns();
-  if (a.test == "cantilever") return cantilever_columns(reading_of(a));
-  if (a.test == "relaxation") return relaxation_columns();
-  if (a.test == "pull-out") return tension_columns(false);
-  if (is_rubber_test(a.test)) {
-    CurveColumns columns = rubber_columns(a.gauge_length != 1.0, !std::isnan(a.specimen.width));
-    columns.x_hint = a.gauge_length == 1.0 ? "give --gauge-length if it is a displacement"
-                                           : "leave --gauge-length out if it is a strain";
-    return columns;
-  }
-  if (!is_tension_test(a.test)) return zone_columns();
-  const bool strain = a.gauge_length == 1.0;
-  CurveColumns columns = tension_columns(strain);
-  columns.x_hint = strain ? "give --gauge-length if it is a displacement"
-                          : "leave --gauge-length out if it is a strain";
-  return columns;
 }
 
 } // namespace
@@ -193,6 +168,7 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
   if (a.test == "compression" && a.curves.size() > 1)
     option_error("--curves", a.curves[1], "is one more than a compression test takes",
                  "identify each specimen by itself", diagnostics);
+  check_positive("--layers", a.layers, "give the number of plies between the plates", diagnostics);
   if (is_rubber_test(a.test) && !std::isnan(a.specimen.width))
     check_positive("--width", a.specimen.width, "give the width of the section, in mm",
                    diagnostics);
@@ -249,7 +225,7 @@ FitOptions fit_options(const IdentifyArguments& a, Diagnostics& diagnostics) {
 }
 
 CurveColumns columns_of(const IdentifyArguments& a) {
-  CurveColumns columns = columns_of_test(a);
+  CurveColumns columns = identify_test(a.test).columns(a);
   columns.x = {a.x.name, a.x.unit};
   columns.y = {a.y.name, a.y.unit};
   if (!extension_counts(a) && a.angle_file.empty()) columns.angle = {a.angle.name, a.angle.unit};
@@ -257,35 +233,7 @@ CurveColumns columns_of(const IdentifyArguments& a) {
 }
 
 std::string test_words(const IdentifyArguments& a) {
-  if (a.test == "bias")
-    return fmt::format("bias-extension test, {:g} x {:g} mm, equation (40) read backwards",
-                       a.specimen.length, a.specimen.width);
-  if (a.test == "frame")
-    return "picture frame" +
-           (std::isnan(a.specimen.side) ? "" : fmt::format(" of {:g} mm", a.specimen.side)) +
-           ", equation (41) read backwards";
-  if (is_rubber_test(a.test)) {
-    std::string words = a.test + " tension of rubber";
-    if (!a.others.empty()) words += ", and equibiaxial";
-    if (!std::isnan(a.specimen.width)) words += fmt::format(", width {:g} mm", a.specimen.width);
-    if (a.gauge_length != 1.0) words += fmt::format(", gauge length {:g} mm", a.gauge_length);
-    return words;
-  }
-  if (a.test == "relaxation")
-    return fmt::format("relaxation after a stop at {:g} degrees, ramp of {:g} s", a.stop_angle,
-                       a.ramp);
-  if (a.test == "pull-out") return fmt::format("pull-out tests of {:g} mm2", a.area);
-  if (a.test == "cantilever") return "cantilever test, heavy elastica";
-  if (a.test == "three-point")
-    return fmt::format("three-point bending, span {:g} mm, width {:g} mm", a.specimen.span,
-                       a.specimen.width);
-  if (a.test == "in-plane-bending") return "transition zone in the plane";
-  if (a.test == "biaxial") return "biaxial tension, cell of two crimped yarns";
-  std::string words =
-      fmt::format("{} test of {:g} yarn{}", a.test == "compression" ? "compression" : "tension",
-                  a.yarns, a.yarns == 1.0 ? "" : "s");
-  if (a.gauge_length != 1.0) words += fmt::format(", gauge length {:g} mm", a.gauge_length);
-  return words;
+  return identify_test(a.test).words(a);
 }
 
 } // namespace plyform

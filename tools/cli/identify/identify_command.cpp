@@ -3,10 +3,10 @@
 #include "base/format.hpp"
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
-#include "tools/cli/identify/identify_parts.hpp"
 #include "tools/cli/identify/identify_ranges.hpp"
 #include "tools/cli/identify/identify_rates.hpp"
 #include "tools/cli/identify/identify_rubber.hpp"
+#include "tools/cli/identify/identify_tests.hpp"
 #include "tools/cli/progress_line.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct BothKinds {
 
 /// Angles of the others are magnitudes, as their sign is known.
 BothKinds both_kinds(const IdentifyArguments& a, Diagnostics& diagnostics) {
-  if (a.test == "biaxial") return {}; // of four columns
+  if (!identify_test(a.test).columns) return {};
   IdentifyArguments other = a;
   other.curves = a.others;
   BothKinds both{curves_of(a, diagnostics), curves_of(other, diagnostics)};
@@ -58,51 +58,6 @@ void warn_of_same(const std::vector<Curve>& curves, Diagnostics& diagnostics) {
   }
 }
 
-std::optional<Identified> identify(const IdentifyArguments& a, const FabricReading& base,
-                                   const std::optional<PreparedShear>& test,
-                                   const std::vector<Curve>& curves, const FitOptions& options,
-                                   Diagnostics& diagnostics) {
-  const Fabric& fabric = *base.value;
-  if (test && is_rated(a))
-    return identify_rated_curves(a, base, test->test, curves, options, diagnostics);
-  if (a.test == "relaxation")
-    return identify_relaxation_curve(a, base, curves.front(), diagnostics);
-  if (test) {
-    const auto fit = identify_shear(curves, test->test, fabric, options, diagnostics);
-    if (!fit) return std::nullopt;
-    Identified text = shear_text(*fit);
-    text.figures.insert(text.figures.begin(), test->assumed.begin(), test->assumed.end());
-    const auto slip = slip_lines(a, curves, *test, fabric, options, *fit);
-    auto& lines = options.measured_angle ? text.figures : text.notes;
-    lines.insert(lines.end(), slip.begin(), slip.end());
-    return text;
-  }
-  if (a.test == "biaxial") return identify_biaxial_files(a, fabric, diagnostics);
-  if (a.test == "compression") {
-    const auto fit =
-        identify_compression(curves.front(), {a.yarns, a.gauge_length}, options, diagnostics);
-    if (!fit) return std::nullopt;
-    for (const std::string& yarns : families_of(a.direction))
-      check_compression(fit->stiffness, yarns, fabric, {a.curves.front(), 1, 1}, diagnostics);
-    return compression_text(*fit, a);
-  }
-  if (a.test == "cantilever") {
-    const auto fit = identify_cantilever(curves, reading_of(a), fabric, options, diagnostics);
-    return fit ? std::optional(bending_text(*fit, a)) : std::nullopt;
-  }
-  if (a.test == "three-point") {
-    const auto fit = identify_three_point(curves, {a.specimen.span, a.specimen.width}, fabric,
-                                          options, diagnostics);
-    return fit ? std::optional(bending_text(*fit, a)) : std::nullopt;
-  }
-  if (a.test == "in-plane-bending") {
-    const auto fit = identify_zone(curves, fabric, options, diagnostics);
-    return fit ? std::optional(zone_text(*fit, a)) : std::nullopt;
-  }
-  const auto fit = identify_tension(curves, {a.yarns, a.gauge_length}, options, diagnostics);
-  return fit ? std::optional(tension_text(*fit, a)) : std::nullopt;
-}
-
 /// The comment above the law in the fabric file.
 std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fabric,
                                     const Identified& result) {
@@ -129,7 +84,8 @@ bool stands_beside(const std::string& key) {
   return key == "law" || key == "buckling_force" || key == "slack" || key == "pretension" ||
          key == "breaking_force" || key == "height" || key == "viscosity" ||
          key == "measured_rates" || key == "reference" || key == "activation_energy" ||
-         key == "c1" || key == "c2";
+         key == "c1" || key == "c2" || key == "exponent" || key == "densest" ||
+         key == "unloading" || key == "nesting" || key == "thickness";
 }
 
 /// The fabric file with what was identified.
@@ -174,6 +130,68 @@ bool may_be_reported(const IdentifyArguments& a, const Diagnostics& diagnostics)
 
 } // namespace
 
+std::optional<Identified> find_shear(const TestInput& in, Diagnostics& diagnostics) {
+  const IdentifyArguments& a = in.arguments;
+  const Fabric& fabric = *in.base.value;
+  if (is_rated(a))
+    return identify_rated_curves(a, in.base, in.shear->test, in.curves, in.options, diagnostics);
+  const auto fit = identify_shear(in.curves, in.shear->test, fabric, in.options, diagnostics);
+  if (!fit) return std::nullopt;
+  Identified text = shear_text(*fit);
+  text.figures.insert(text.figures.begin(), in.shear->assumed.begin(), in.shear->assumed.end());
+  const auto slip = slip_lines(a, in.curves, *in.shear, fabric, in.options, *fit);
+  auto& lines = in.options.measured_angle ? text.figures : text.notes;
+  lines.insert(lines.end(), slip.begin(), slip.end());
+  return text;
+}
+
+std::optional<Identified> find_tension(const TestInput& in, Diagnostics& diagnostics) {
+  const IdentifyArguments& a = in.arguments;
+  const auto fit = identify_tension(in.curves, {a.yarns, a.gauge_length}, in.options, diagnostics);
+  return fit ? std::optional(tension_text(*fit, a)) : std::nullopt;
+}
+
+std::optional<Identified> find_biaxial(const TestInput& in, Diagnostics& diagnostics) {
+  return identify_biaxial_files(in.arguments, *in.base.value, diagnostics);
+}
+
+std::optional<Identified> find_rubber(const TestInput& in, Diagnostics& diagnostics) {
+  return identify_rubber_curves(in.arguments, *in.base.value, in.curves, in.others, in.options,
+                                diagnostics);
+}
+
+std::optional<Identified> find_compression(const TestInput& in, Diagnostics& diagnostics) {
+  const IdentifyArguments& a = in.arguments;
+  const auto fit =
+      identify_compression(in.curves.front(), {a.yarns, a.gauge_length}, in.options, diagnostics);
+  if (!fit) return std::nullopt;
+  for (const std::string& yarns : families_of(a.direction))
+    check_compression(fit->stiffness, yarns, *in.base.value, {a.curves.front(), 1, 1}, diagnostics);
+  return compression_text(*fit, a);
+}
+
+std::optional<Identified> find_cantilever(const TestInput& in, Diagnostics& diagnostics) {
+  const auto fit = identify_cantilever(in.curves, reading_of(in.arguments), *in.base.value,
+                                       in.options, diagnostics);
+  return fit ? std::optional(bending_text(*fit, in.arguments)) : std::nullopt;
+}
+
+std::optional<Identified> find_three_point(const TestInput& in, Diagnostics& diagnostics) {
+  const SpecimenArguments& specimen = in.arguments.specimen;
+  const auto fit = identify_three_point(in.curves, {specimen.span, specimen.width}, *in.base.value,
+                                        in.options, diagnostics);
+  return fit ? std::optional(bending_text(*fit, in.arguments)) : std::nullopt;
+}
+
+std::optional<Identified> find_relaxation(const TestInput& in, Diagnostics& diagnostics) {
+  return identify_relaxation_curve(in.arguments, in.base, in.curves.front(), diagnostics);
+}
+
+std::optional<Identified> find_zone(const TestInput& in, Diagnostics& diagnostics) {
+  const auto fit = identify_zone(in.curves, *in.base.value, in.options, diagnostics);
+  return fit ? std::optional(zone_text(*fit, in.arguments)) : std::nullopt;
+}
+
 int identify_command(const IdentifyArguments& arguments) {
   if (arguments.test == "pull-out") return identify_pull_out_command(arguments);
   const bool shear = is_shear_test(arguments.test);
@@ -214,13 +232,12 @@ int identify_command(const IdentifyArguments& arguments) {
     return identify_laboratories(arguments, fit, base, *test, kinds.curves, options, diagnostics);
   std::optional<Identified> result;
   if (diagnostics.errors.empty())
-    result = has_groups(arguments, *base.value)
-                 ? identify_groups(arguments, base, test, kinds.curves, kinds.others, options,
-                                   diagnostics)
-             : is_rubber_test(arguments.test)
-                 ? identify_rubber_curves(arguments, *base.value, kinds.curves, kinds.others,
-                                          options, diagnostics)
-                 : identify(arguments, base, test, kinds.curves, options, diagnostics);
+    result =
+        has_groups(arguments, *base.value)
+            ? identify_groups(arguments, base, test, kinds.curves, kinds.others, options,
+                              diagnostics)
+            : identify_test(arguments.test)
+                  .find({arguments, base, test, kinds.curves, kinds.others, options}, diagnostics);
   const std::string text = result ? text_of(arguments, base, *result, diagnostics) : "";
   const bool refused = print_diagnostics(diagnostics);
   if (may_be_reported(arguments, diagnostics))

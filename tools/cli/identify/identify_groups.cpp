@@ -301,7 +301,7 @@ std::optional<Identified> bending_groups(const IdentifyArguments& a, const Fabri
 } // namespace
 
 bool has_groups(const IdentifyArguments& a, const Fabric& fabric) {
-  if (is_rubber_test(a.test)) return false; // one law for both
+  if (is_rubber_test(a.test) || a.test == "compaction") return false; // one law for both
   return !a.others.empty() || (is_shear_test(a.test) && !fabric.stitches.empty());
 }
 

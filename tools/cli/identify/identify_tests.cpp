@@ -1,159 +1,89 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/identify/identify_tests.hpp"
+#include "base/format.hpp"
+#include "core/identify/test_columns.hpp"
+#include "tools/cli/identify/identify_rates.hpp"
+#include "tools/cli/identify/option_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plyform {
+namespace option_rows {
 namespace {
 
-using Kind = TestOption::Kind;
-using Place = TestOption::Place;
-using Options = std::vector<TestOption>;
-using Target = std::function<OptionTarget(IdentifyArguments&)>;
+using A = IdentifyArguments;
 
-/// A member of the arguments.
-template <class Value>
-Target at(Value IdentifyArguments::*member) {
-  return [member](IdentifyArguments& a) -> OptionTarget { return &(a.*member); };
+template <std::size_t n>
+struct Words {
+  char text[n]{};
+  constexpr Words(const char (&of)[n]) { std::copy_n(of, n, text); } // NOLINT: "..." is one
+};
+
+/// A test without numbers in its name.
+template <Words of>
+std::string words(const IdentifyArguments&) {
+  return of.text;
 }
 
-Target at(double SpecimenArguments::*member) {
-  return [member](IdentifyArguments& a) -> OptionTarget { return &(a.specimen.*member); };
+CurveColumns shear_columns_of(const A& a) {
+  CurveColumns columns = shear_columns(a.test == "frame");
+  columns.x_hint = "give --angle-column if it is a shear angle";
+  return columns;
 }
 
-Target at(ColumnArguments IdentifyArguments::*column, std::string ColumnArguments::*member) {
-  return [=](IdentifyArguments& a) -> OptionTarget { return &(a.*column.*member); };
+std::string shear_words(const A& a) {
+  if (a.test == "bias")
+    return fmt::format("bias-extension test, {:g} x {:g} mm, equation (40) read backwards",
+                       a.specimen.length, a.specimen.width);
+  return "picture frame" +
+         (std::isnan(a.specimen.side) ? "" : fmt::format(" of {:g} mm", a.specimen.side)) +
+         ", equation (41) read backwards";
 }
 
-TestOption number(std::string name, std::string unit, std::string words, Target target) {
-  return {std::move(name), Kind::number, std::move(unit), std::move(words), std::move(target)};
+CurveColumns yarn_columns_of(const A& a) {
+  const bool strain = a.gauge_length == 1.0;
+  CurveColumns columns = tension_columns(strain);
+  columns.x_hint = strain ? "give --gauge-length if it is a displacement"
+                          : "leave --gauge-length out if it is a strain";
+  return columns;
 }
 
-TestOption size(std::string name, std::string unit, std::string words, Target target,
-                bool required = false) {
-  TestOption one = number(std::move(name), std::move(unit), std::move(words), std::move(target));
-  one.place = Place::size, one.required = required;
-  return one;
+std::string yarn_words(const A& a) {
+  std::string words =
+      fmt::format("{} test of {:g} yarn{}", a.test == "compression" ? "compression" : "tension",
+                  a.yarns, a.yarns == 1.0 ? "" : "s");
+  if (a.gauge_length != 1.0) words += fmt::format(", gauge length {:g} mm", a.gauge_length);
+  return words;
 }
 
-/// Several, with commas between.
-TestOption numbers(std::string name, std::string unit, std::string words, Target target) {
-  return {std::move(name), Kind::numbers, std::move(unit), std::move(words), std::move(target)};
+CurveColumns rubber_columns_of(const A& a) {
+  CurveColumns columns = rubber_columns(a.gauge_length != 1.0, !std::isnan(a.specimen.width));
+  columns.x_hint = a.gauge_length == 1.0 ? "give --gauge-length if it is a displacement"
+                                         : "leave --gauge-length out if it is a strain";
+  return columns;
 }
 
-TestOption text(std::string name, std::string words, Target target) {
-  return {std::move(name), Kind::text, "", std::move(words), std::move(target)};
+std::string rubber_words(const A& a) {
+  std::string words = a.test + " tension of rubber";
+  if (!a.others.empty()) words += ", and equibiaxial";
+  if (!std::isnan(a.specimen.width)) words += fmt::format(", width {:g} mm", a.specimen.width);
+  if (a.gauge_length != 1.0) words += fmt::format(", gauge length {:g} mm", a.gauge_length);
+  return words;
 }
 
-TestOption choice(std::string name, std::string words, std::vector<std::string> choices,
-                  Target target) {
-  TestOption one{std::move(name), Kind::choice, "", std::move(words), std::move(target)};
-  one.choices = std::move(choices);
-  return one;
+std::string three_point_words(const A& a) {
+  return fmt::format("three-point bending, span {:g} mm, width {:g} mm", a.specimen.span,
+                     a.specimen.width);
 }
 
-TestOption flag(std::string name, std::string words, Target target) {
-  return {std::move(name), Kind::flag, "", std::move(words), std::move(target)};
+std::string relaxation_words(const A& a) {
+  return fmt::format("relaxation after a stop at {:g} degrees, ramp of {:g} s", a.stop_angle,
+                     a.ramp);
 }
 
-/// Curves of specimens of another kind.
-TestOption files(std::string name, std::string words) {
-  return {std::move(name), Kind::files, "", std::move(words), at(&IdentifyArguments::others)};
-}
-
-TestOption needed(TestOption one) {
-  one.required = true;
-  return one;
-}
-
-/// Above the fold of a page.
-TestOption above(TestOption one) {
-  one.place = Place::size;
-  return one;
-}
-
-/// Of the command line only.
-TestOption by_command(TestOption one) {
-  one.place = Place::command;
-  return one;
-}
-
-TestOption within(TestOption one, double least, double most) {
-  one.least = least, one.most = most;
-  return one;
-}
-
-Options together(std::initializer_list<Options> parts) {
-  Options all;
-  for (const Options& part : parts)
-    all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
-
-/// Columns of `x` and `y`.
-Options columns(const std::string& x, const std::string& y) {
-  using A = IdentifyArguments;
-  using C = ColumnArguments;
-  const std::string column = "name or number of the column of ", unit = "unit of the ";
+/// Of shear: the law, measured angles, laboratories, rates.
+Options shear_form() {
   return {
-      text("x-column", column + x + " [as the header says]", at(&A::x, &C::name)),
-      by_command(text("y-column", column + y + " [as the header says]", at(&A::y, &C::name))),
-      text("x-unit", unit + x + ", if the header has none or a wrong one", at(&A::x, &C::unit)),
-      text("y-unit", unit + y + ", if the header has none or a wrong one", at(&A::y, &C::unit))};
-}
-
-/// What it starts from and writes.
-Options outputs() {
-  using A = IdentifyArguments;
-  return {by_command(needed(text("fabric", "fabric file with all but the law", at(&A::fabric)))),
-          by_command(needed(text("output", "fabric file to write", at(&A::output)))),
-          by_command(text("fit", "CSV file of measured and fitted rows [OUTPUT's stem_fit.csv]",
-                          at(&A::fit))),
-          by_command(text("report",
-                          "JSON file of the law, its limits, warnings and mistakes, for programs; "
-                          "also written where the curve is refused",
-                          at(&A::report))),
-          flag("yes-doubtful",
-               "go on though the curve shows a disturbance or the law is no fabric's",
-               at(&A::doubtful))};
-}
-
-/// Range of rows, and what machines add to a curve; `taut`: the unit of the toe.
-Options corrections(const std::string& range, const std::string& unit, const std::string& taut) {
-  using A = IdentifyArguments;
-  const auto fit = [](std::string name, Kind kind, std::string of, std::string words, Target to) {
-    return TestOption{std::move(name), kind, std::move(of), std::move(words), std::move(to)};
-  };
-  return {
-      number("from", unit, range + " from which rows count [0]", at(&A::from)),
-      number("to", unit, range + " up to which rows count", at(&A::to)),
-      number("compliance", "mm/N", "by which machine, load cell and clamps give way; 0: none",
-             at(&A::compliance)),
-      fit("zero", Kind::fit, "N", "load that the cell shows without a load, or fit", at(&A::zero)),
-      fit("toe", Kind::fit, taut,
-          "extension at which the specimen is taut, or fit: toe compensation", at(&A::toe)),
-      fit("slip", Kind::only_fit, "", "fit: takes a sudden slip in the clamps off", at(&A::slip))};
-}
-
-TestOption direction() {
-  return above(needed(choice("direction", "yarns that it is a test of", {"warp", "weft", "both"},
-                             at(&IdentifyArguments::direction))));
-}
-
-TestOption gauge_length() {
-  return size("gauge-length", "mm", "if the curve has displacements in the place of strains [1]",
-              at(&IdentifyArguments::gauge_length));
-}
-
-IdentifyTest shear_test(bool bias) {
-  using A = IdentifyArguments;
-  using S = SpecimenArguments;
-  const Options sizes =
-      bias ? Options{size("length", "mm", "free, between the clamps", at(&S::length), true),
-                     size("width", "mm", "of the specimen", at(&S::width), true)}
-           : Options{size("side", "mm", "from hinge to hinge; not needed for N/mm over an angle",
-                          at(&S::side))};
-  const Options form = {
       choice("law", "form of the law: static is a torque, then a polynomial [by cross-validation]",
              {"polynomial", "static", "table"}, at(&A::law)),
       number("coefficients", "", "of a polynomial: k1, k3, k5 ... [chosen, mostly 3]",
@@ -192,6 +122,15 @@ IdentifyTest shear_test(bool bias) {
                     "of the viscosity, with speeds: c0, c2, c4 [chosen]",
                     at(&A::viscosity_coefficients)),
              1, 3)};
+}
+
+IdentifyTest shear_test(bool bias) {
+  using S = SpecimenArguments;
+  const Options sizes =
+      bias ? Options{size("length", "mm", "free, between the clamps", at(&S::length), true),
+                     size("width", "mm", "of the specimen", at(&S::width), true)}
+           : Options{size("side", "mm", "from hinge to hinge; not needed for N/mm over an angle",
+                          at(&S::side))};
   const std::string extension = bias ? "extension" : "extension of the diagonal";
   return {bias ? "bias" : "frame",
           bias ? "Bias extension" : "Picture frame",
@@ -200,8 +139,11 @@ IdentifyTest shear_test(bool bias) {
           "shear law",
           extension + " and load, a file a specimen" +
               (bias ? "" : "; or a normalised force in N/mm over the angle"),
+          shear_columns_of,
+          shear_words,
+          find_shear,
           together({sizes,
-                    form,
+                    shear_form(),
                     corrections("shear angle", "°", "mm"),
                     columns(extension, "load"),
                     {files("negative", "CSV files of specimens cut, or frames turned, the other "
@@ -210,7 +152,6 @@ IdentifyTest shear_test(bool bias) {
 }
 
 IdentifyTest yarn_test(const std::string& name) {
-  using A = IdentifyArguments;
   const bool pressed = name == "compression";
   Options sizes{size("yarns", "", "that share the force [1]", at(&A::yarns)), gauge_length()};
   if (pressed) sizes.push_back(direction());
@@ -226,18 +167,23 @@ IdentifyTest yarn_test(const std::string& name) {
           pressed ? "compression_stiffness, buckling_force" : "tension of one yarn",
           pressed ? "shortening and force of a strip held flat, both positive; one specimen"
                   : "strain or displacement, and load",
+          yarn_columns_of,
+          yarn_words,
+          pressed ? find_compression : find_tension,
           together({sizes, corrections("strain", "", "mm or strain"),
                     columns(pressed ? "shortening" : "strain", "force"), others, outputs()})};
 }
 
 IdentifyTest biaxial_test() {
-  using A = IdentifyArguments;
   return {"biaxial",
           "Biaxial tension",
           "tension of straight yarns and crimp of both, from biaxial tension curves",
           "tension of straight yarns and crimp",
           "warp strain, weft strain, warp load, weft load, a file for each strain ratio; a "
           "direction that was free may miss",
+          nullptr,
+          words<"biaxial tension, cell of two crimped yarns">,
+          find_biaxial,
           together({{size("warp-yarns", "", "that share the load [1]", at(&A::warp_yarns)),
                      size("weft-yarns", "", "that share the load [1]", at(&A::weft_yarns)),
                      TestOption{"toe",
@@ -252,7 +198,6 @@ IdentifyTest biaxial_test() {
 }
 
 IdentifyTest rubber_test(const std::string& name) {
-  using A = IdentifyArguments;
   Options others;
   if (name == "uniaxial")
     others = {files("equibiaxial", "CSV files of specimens of the same rubber stretched both ways: "
@@ -262,6 +207,9 @@ IdentifyTest rubber_test(const std::string& name) {
           "law of a sheet of rubber from " + name + " tension: neo-Hookean or Mooney-Rivlin",
           "law of a sheet of rubber",
           "strain, stretch or displacement, and load or nominal stress",
+          rubber_columns_of,
+          rubber_words,
+          find_rubber,
           together(
               {{size("width", "mm", "of the section, for loads in N; its thickness is the fabric's",
                      at(&SpecimenArguments::width)),
@@ -280,6 +228,9 @@ IdentifyTest cantilever() {
           "bending stiffness from a strip that hangs over an edge (Peirce, ASTM D1388)",
           "bending_stiffness",
           "overhang, and angle of the chord or deflection of the tip; a row a reading",
+          [](const A& a) { return cantilever_columns(reading_of(a)); },
+          words<"cantilever test, heavy elastica">,
+          find_cantilever,
           together({{above(choice("reading", "what is read beside the overhang [angle]",
                                   {"angle", "deflection"}, at(&IdentifyArguments::reading))),
                      direction()},
@@ -296,6 +247,9 @@ IdentifyTest three_point() {
           "bending stiffness from three-point bending",
           "bending_stiffness or bending_table",
           "deflection and force",
+          [](const A&) { return three_point_columns(); },
+          three_point_words,
+          find_three_point,
           together({{size("span", "mm", "distance of the supports", at(&S::span), true),
                      size("width", "mm", "of the strip", at(&S::width), true), direction()},
                     corrections("deflection over the span", "", "mm"),
@@ -304,7 +258,6 @@ IdentifyTest three_point() {
 }
 
 IdentifyTest relaxation() {
-  using A = IdentifyArguments;
   using S = SpecimenArguments;
   TestOption times =
       within(numbers("times", "s", "relaxation times [looked for]", at(&A::times)), 1e-300, 1e300);
@@ -313,6 +266,9 @@ IdentifyTest relaxation() {
           "Maxwell branches of shear from the load after a frame or bias test has stopped",
           "Maxwell branches of shear",
           "time since the stop, and load; one test",
+          [](const A&) { return relaxation_columns(); },
+          relaxation_words,
+          find_relaxation,
           together({{size("side", "mm", "of a frame: from hinge to hinge", at(&S::side)),
                      size("length", "mm", "of a bias test: free length", at(&S::length)),
                      size("width", "mm", "of a bias test", at(&S::width)),
@@ -331,11 +287,13 @@ IdentifyTest in_plane_bending() {
           "in-plane bending stiffness from the width of transition zones",
           "in_plane_bending_stiffness",
           "distance along a yarn and shear angle; a file a profile",
+          [](const A&) { return zone_columns(); },
+          words<"transition zone in the plane">,
+          find_zone,
           together({{direction()}, columns("distance along a yarn", "shear angle"), outputs()})};
 }
 
 IdentifyTest pull_out() {
-  using A = IdentifyArguments;
   const TestOption output = by_command(
       needed(text("output", "TOML file to write: [friction.NAME] of a case", at(&A::output))));
   Options written = outputs();
@@ -351,6 +309,9 @@ IdentifyTest pull_out() {
       "friction over viscosity times speed over pressure, from pull-out tests",
       "law of friction between plies, or plies and tools, for a case",
       "displacement and load of a ply drawn from between two faces, a file a test",
+      [](const A&) { return tension_columns(false); },
+      [](const A& a) { return fmt::format("pull-out tests of {:g} mm2", a.area); },
+      nullptr,
       together(
           {{size("area", "mm2", "of one face that is pulled; both slide", at(&A::area), true),
             above(needed(numbers("speeds", "mm/s", "of each test", at(&A::speeds)))),
@@ -368,9 +329,33 @@ IdentifyTest pull_out() {
       false};
 }
 
+IdentifyTest compaction() {
+  return {"compaction",
+          "Compaction",
+          "pressure over thickness or fibre volume, from plies pressed between flat plates",
+          "compaction, and thickness without pressure",
+          "thickness or fibre volume fraction, and pressure, a file a specimen",
+          [](const A&) { return compaction_columns(); },
+          [](const A& a) {
+            return fmt::format("compaction of {:g} {}", a.layers,
+                               a.layers == 1.0 ? "ply" : "plies");
+          },
+          find_compaction,
+          together({{size("layers", "", "plies between the plates [1]", at(&A::layers)),
+                     choice("law",
+                            "form of the law; gutowski is written as a table [toll_manson where it "
+                            "follows the rows, else a table]",
+                            {"toll_manson", "gutowski", "table"}, at(&A::law))},
+                    columns("thickness or fibre volume", "pressure"),
+                    {files("unloading", "CSV files of the plates going apart again")},
+                    outputs()})};
+}
+
 } // namespace
+} // namespace option_rows
 
 const std::vector<IdentifyTest>& identify_tests() {
+  using namespace option_rows;
   static const std::vector<IdentifyTest> all{shear_test(false),
                                              shear_test(true),
                                              yarn_test("warp"),
@@ -379,12 +364,19 @@ const std::vector<IdentifyTest>& identify_tests() {
                                              rubber_test("uniaxial"),
                                              rubber_test("equibiaxial"),
                                              yarn_test("compression"),
+                                             compaction(),
                                              cantilever(),
                                              three_point(),
                                              relaxation(),
                                              in_plane_bending(),
                                              pull_out()};
   return all;
+}
+
+const IdentifyTest& identify_test(const std::string& name) {
+  const std::vector<IdentifyTest>& all = identify_tests();
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const IdentifyTest& one) { return one.name == name; });
 }
 
 } // namespace plyform

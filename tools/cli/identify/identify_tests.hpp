@@ -3,7 +3,7 @@
 // programs (plyform keys --identify) and the page of the workbench are made of this.
 #pragma once
 
-#include "tools/cli/commands.hpp"
+#include "tools/cli/identify/identify_parts.hpp"
 
 #include <functional>
 #include <string>
@@ -30,14 +30,42 @@ struct TestOption {
   double least = 0.0, most = 0.0; ///< of numbers, where they are not checked later; both 0: any
 };
 
+/// What a law is found from.
+struct TestInput {
+  const IdentifyArguments& arguments;
+  const FabricReading& base;
+  const std::optional<PreparedShear>& shear; ///< of tests of shear
+  const std::vector<Curve>&curves, &others;
+  const FitOptions& options;
+};
+
+/// Finds the law, or reports errors and returns nothing.
+using FindLaw = std::optional<Identified> (*)(const TestInput& input, Diagnostics& diagnostics);
+
 struct IdentifyTest {
-  std::string name;         ///< frame
-  std::string title, help;  ///< "Picture frame"; what it makes of what
-  std::string gives, curve; ///< laws; what a file has
+  std::string name;                                  ///< frame
+  std::string title, help;                           ///< "Picture frame"; what it makes of what
+  std::string gives, curve;                          ///< laws; what a file has
+  CurveColumns (*columns)(const IdentifyArguments&); ///< of a curve; nullptr: a reader of its own
+  std::string (*words)(const IdentifyArguments&);    ///< "picture frame of 200 mm, ..."
+  FindLaw find;
   std::vector<TestOption> options;
   bool changes_fabric = true; ///< else it writes a part of a case
 };
 
 const std::vector<IdentifyTest>& identify_tests();
+/// Of that name, which must be one.
+const IdentifyTest& identify_test(const std::string& name);
+
+std::optional<Identified> find_shear(const TestInput& input, Diagnostics& diagnostics);
+std::optional<Identified> find_tension(const TestInput& input, Diagnostics& diagnostics);
+std::optional<Identified> find_biaxial(const TestInput& input, Diagnostics& diagnostics);
+std::optional<Identified> find_rubber(const TestInput& input, Diagnostics& diagnostics);
+std::optional<Identified> find_compression(const TestInput& input, Diagnostics& diagnostics);
+std::optional<Identified> find_cantilever(const TestInput& input, Diagnostics& diagnostics);
+std::optional<Identified> find_three_point(const TestInput& input, Diagnostics& diagnostics);
+std::optional<Identified> find_relaxation(const TestInput& input, Diagnostics& diagnostics);
+std::optional<Identified> find_zone(const TestInput& input, Diagnostics& diagnostics);
+std::optional<Identified> find_compaction(const TestInput& input, Diagnostics& diagnostics);
 
 } // namespace plyform

@@ -23,6 +23,22 @@ const PAIRS = [["measured_N", "fitted_N", "load", "N"], ["measured_MPa", "fitted
   ["warp_N", "warp_fitted_N", "warp load", "N"], ["weft_N", "weft_fitted_N", "weft load", "N"],
   ["measured", "fitted", "friction coefficient", ""]];
 
+/** Of any other column: its words and unit, thickness_mm; it is measured where fitted_thickness_mm stands beside. */
+const UNITS = [["_N_mm2", "N/mm²"], ["_mm", "mm"], ["_deg", "°"], ["_N", "N"]];
+const ofName = (column) => {
+  const [end, unit] = UNITS.find(([one]) => column.endsWith(one)) || ["", ""];
+  return [column.slice(0, column.length - end.length).replaceAll("_", " "), unit, 1];
+};
+const pairsOf = (fit) => [...PAIRS.filter(([measured]) => fit[measured]),
+  ...Object.keys(fit).filter((column) => fit[`fitted_${column}`]).map((column) =>
+    [column, `fitted_${column}`, ...ofName(column)])];
+const alongOf = (fit) => {
+  const known = Object.keys(ALONG).filter((name) => fit[name]);
+  const shown = pairsOf(fit).flat();
+  return known.length ? known
+    : Object.keys(fit).filter((name) => !shown.includes(name) && !["specimen", "side"].includes(name));
+};
+
 const figure = (value) => written(value, Math.min(5, fittingDigits(value)));
 
 export class IdentifyResult {
@@ -104,12 +120,13 @@ export class IdentifyResult {
   }
 
   drawAxes() {
-    const names = this.fit ? Object.keys(ALONG).filter((name) => this.fit[name]) : [];
+    const names = this.fit ? alongOf(this.fit) : [];
     const before = this.x ? this.x.value : "";
     const log = Boolean(this.log && this.log.checked);
     this.axes.replaceChildren();
     if (names.length) {
-      this.x = select(names.map((name) => [name, ALONG[name][0]]), names.includes(before) ? before : names[0],
+      this.x = select(names.map((name) => [name, (ALONG[name] || ofName(name))[0]]),
+        names.includes(before) ? before : names[0],
         { id: "identify-x" });
       this.x.addEventListener("change", () => this.draw());
       this.log = element("input", { type: "checkbox", id: "identify-log", checked: log });
@@ -124,7 +141,7 @@ export class IdentifyResult {
     this.chart.replaceChildren();
     this.residuals.replaceChildren();
     if (!this.fit || !this.axes.childElementCount) return;
-    const [name, unit, factor] = ALONG[this.x.value];
+    const [name, unit, factor] = ALONG[this.x.value] || ofName(this.x.value);
     const x = { name, unit, zero: true, log: OVER_DECADES.includes(this.x.value) };
     const curves = this.curves(factor);
     drawChart(this.chart, { title: "Measured and fitted", x, series: curves.flatMap((one) => one.both),
@@ -138,7 +155,7 @@ export class IdentifyResult {
     const { side } = this.fit;
     const alone = new Set(this.fit.specimen).size === (this.fit.specimen || []).length; // a row each: one curve
     const specimen = alone ? undefined : this.fit.specimen;
-    const pairs = PAIRS.filter(([measured]) => this.fit[measured]);
+    const pairs = pairsOf(this.fit);
     const groupOf = (i) => [side ? side[i] : "", specimen ? `specimen ${specimen[i]}` : ""].filter(Boolean).join(", ");
     const groups = [...new Set(this.fit[pairs[0][0]].map((_, i) => groupOf(i)))];
     return groups.flatMap((group) => pairs.map(([measured, fitted, what, unit]) => {
