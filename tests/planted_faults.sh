@@ -56,7 +56,7 @@ faults=(
   "friction does not feel a vacuum | contact/simd/ply_ply_point_forces.hpp | s/return {pull, on .* (1.0 - open), k.stuck/return {pull, all(0.0), k.stuck/"
   "opening between yarns is the change of area | core/run/output_state.cpp | s/now \/ before \/ (1.0 + family.strain\[e\]) - 1.0/now \/ before - 1.0/"
 )
-filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeEdgeContact*:*Stitch*:*Shear*:*Crimp*:Families*:ClosedMould*:Compaction*:MembraneSimd*:*Friction*:Enclosure*'
+filter='*Contact*:*Oracle*:*Ridges*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeEdgeContact*:*Stitch*:*Shear*:*Crimp*:Families*:ClosedMould*:Compaction*:MembraneSimd*:*Friction*:Enclosure*'
 
 # plant LINE: the fault's file with the fault in it, on standard output.
 plant() {
@@ -80,7 +80,11 @@ else
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
 fi
-# Only what differs is copied, so that only that is compiled anew.
+# Only what differs is copied, so that only that is compiled anew; what has gone here goes there.
+(cd "$scratch" && find . \( -path ./build -o -name __pycache__ \) -prune -o -type f -print) |
+  while read -r file; do
+    [ -e "$file" ] || rm "$scratch/$file"
+  done
 find . \( -path ./build -o -path ./results -o -path ./.git -o -name __pycache__ \) -prune -o -type f -print |
   while read -r file; do
     cmp -s "$file" "$scratch/$file" || install -D -p -m 755 "$file" "$scratch/$file"

@@ -94,6 +94,10 @@ double smallest_width(const Loop& loop, double& length) {
   return width;
 }
 
+CGAL::Bbox_2 grown(const CGAL::Bbox_2& box, double by) {
+  return {box.xmin() - by, box.ymin() - by, box.xmax() + by, box.ymax() + by};
+}
+
 /// A side of one of several loops.
 struct Side {
   std::size_t loop, k;
@@ -102,24 +106,27 @@ struct Side {
   }
 };
 
-/// The first two sides in the order of `loops` that meet and for which asked(a, b), a < b, holds;
-/// nothing if none do. One of them, if a great many do.
+/// The first two sides in the order of `loops` that meet, or are nearer than `near` (mm), and for
+/// which asked(a, b), a < b, holds; nothing if none do. One of them, if a great many do.
 template <class Asked>
 std::optional<std::pair<Side, Side>> first_meeting(const std::vector<const Loop*>& loops,
-                                                   const Asked& asked) {
+                                                   double near, const Asked& asked) {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, Side>;
   struct Enough {};
   constexpr std::size_t enough = 10'000; // pairs, of which the first is taken
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < loops.size(); ++i)
     for (std::size_t k = 0; k < loops[i]->size(); ++k)
-      boxes.emplace_back(side(*loops[i], k).bbox(), Side{i, k});
+      boxes.emplace_back(grown(side(*loops[i], k).bbox(), near), Side{i, k});
   std::optional<std::pair<Side, Side>> first;
   std::size_t met = 0;
   const auto meet = [&](const Box& one, const Box& other) {
     Side a = one.info(), b = other.info();
     if (b < a) std::swap(a, b);
-    if (!asked(a, b) || !CGAL::do_intersect(side(*loops[a.loop], a.k), side(*loops[b.loop], b.k)))
+    if (!asked(a, b)) return;
+    const auto one_side = side(*loops[a.loop], a.k), other_side = side(*loops[b.loop], b.k);
+    if (!CGAL::do_intersect(one_side, other_side) &&
+        !(CGAL::squared_distance(one_side, other_side) < near * near))
       return;
     if (!first || std::pair(a, b) < *first) first = std::pair(a, b);
     if (++met == enough) throw Enough{};
@@ -131,9 +138,9 @@ std::optional<std::pair<Side, Side>> first_meeting(const std::vector<const Loop*
   return first;
 }
 
-/// Throws for the first two sides of the loop that meet where they should not.
-void check_simple(const Loop& loop, const std::string& name) {
-  if (CGAL::is_simple_2(loop.begin(), loop.end())) return;
+/// Throws for the first two sides of the loop that meet, or are nearer than `near` (mm), where they
+/// should not: the mesh between would be as fine.
+void check_simple(const Loop& loop, double near, const std::string& name) {
   const std::size_t n = loop.size();
   const auto report = [&](std::size_t k, std::size_t l) {
     fail(fmt::format("{} and {} of {} cross or touch; list the points in order around it, each "
@@ -147,9 +154,11 @@ void check_simple(const Loop& loop, const std::string& name) {
   };
   while (back < n && !goes_back(back))
     ++back;
-  const auto crossing = first_meeting({&loop}, [n](const Side& a, const Side& b) {
+  const bool simple = CGAL::is_simple_2(loop.begin(), loop.end());
+  const auto crossing = first_meeting({&loop}, near, [n](const Side& a, const Side& b) {
     return b.k > a.k + 1 && !(a.k == 0 && b.k == n - 1);
   });
+  if (simple && !crossing) return;
   if (crossing && crossing->first.k < back) report(crossing->first.k, crossing->second.k);
   if (back < n) report(back, (back + 1) % n);
   fail(name + " crosses or touches itself; list its points in order around it, each once");
@@ -162,7 +171,7 @@ Loop checked_loop(const std::vector<Vec2>& points, const std::string& name, bool
   const double width = smallest_width(loop, length);
   if (!(width > line * length))
     fail(name + " encloses no area, its points lie on one line; correct the points");
-  check_simple(loop, name);
+  check_simple(loop, line * length, name);
   return loop;
 }
 
@@ -172,11 +181,11 @@ bool lies_in(const Loop& a, const Loop& b) {
   return CGAL::bounded_side_2(b.begin(), b.end(), a.front()) == CGAL::ON_BOUNDED_SIDE;
 }
 
-/// loops: the boundary, and all holes.
-void check_apart(const std::vector<const Loop*>& loops,
+/// loops: the boundary, and all holes; `near`: as of check_simple.
+void check_apart(const std::vector<const Loop*>& loops, double near,
                  const std::function<std::string(std::size_t)>& name) {
   const auto met =
-      first_meeting(loops, [](const Side& a, const Side& b) { return a.loop != b.loop; });
+      first_meeting(loops, near, [](const Side& a, const Side& b) { return a.loop != b.loop; });
   if (!met) return;
   const auto& [b, a] = *met;
   fail(fmt::format("{} of {} crosses or touches {} of {}; move or shrink the hole",
@@ -194,7 +203,8 @@ void check_holes(const Loop& boundary, const std::vector<Loop>& holes) {
     loops.push_back(&hole);
     boxes.push_back(CGAL::bbox_2(hole.begin(), hole.end()));
   }
-  check_apart(loops, name);
+  const CGAL::Bbox_2& all = boxes.front();
+  check_apart(loops, line * std::hypot(all.xmax() - all.xmin(), all.ymax() - all.ymin()), name);
   for (std::size_t k = 1; k < loops.size(); ++k) {
     if (!lies_in(*loops[k], boundary))
       fail(fmt::format("{} lies outside the boundary, its first point is {}; move it inside or "

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace plyform {
@@ -94,16 +95,48 @@ private:
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> index;
 };
 
-/// Points of a triangle or, with c = b, of a side, at most a quarter of the reach apart.
-void cover(const std::array<Vec2, 3>& x, double reach, ThinnedPlaces& places) {
+/// The numbers from 0 to `most` of the points a + k step that lie in the box: first, and behind the
+/// last; none from less than 0 on.
+std::pair<double, double> within(const Eigen::AlignedBox2d& box, const Vec2& a, const Vec2& step,
+                                 int most) {
+  double first = 0.0, last = most;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double low = box.min()[axis] - a[axis], high = box.max()[axis] - a[axis];
+    if (step[axis] == 0.0) {
+      if (low > 0.0 || high < 0.0) return {0.0, -1.0};
+      continue;
+    }
+    first = std::max(first, std::min(low / step[axis], high / step[axis]));
+    last = std::min(last, std::max(low / step[axis], high / step[axis]));
+  }
+  return {std::ceil(first), std::floor(last)};
+}
+
+/// Points of a triangle or, with c = b, of a side, at most a quarter of the reach apart: the first
+/// corner, and those in the window or as near to it as they reach.
+void cover(const std::array<Vec2, 3>& x, double reach, const Eigen::AlignedBox2d& window,
+           ThinnedPlaces& places) {
   const double longest =
       std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
   const int n = std::max(1, static_cast<int>(std::ceil(4.0 * longest / reach)));
   const bool is_side = x[1] == x[2];
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= (is_side ? 0 : i); ++j)
+  Eigen::AlignedBox2d near = window;
+  const Vec2 beyond = Vec2::Constant(1.5 * reach); // with the whole cells of places that reach it
+  if (!near.isEmpty()) near = {near.min() - beyond, near.max() + beyond};
+  places.add(x[0], reach);
+  const Eigen::AlignedBox2d piece(x[0].cwiseMin(x[1]).cwiseMin(x[2]),
+                                  x[0].cwiseMax(x[1]).cwiseMax(x[2]));
+  if (!near.isEmpty() && !near.intersects(piece)) return;
+  for (int i = 0; i <= n; ++i) {
+    const int most = is_side ? 0 : i;
+    double first = 0.0, last = most;
+    if (!near.isEmpty())
+      std::tie(first, last) =
+          within(near, x[0] + (x[1] - x[0]) * (double(i) / n), (x[2] - x[1]) / n, most);
+    for (int j = static_cast<int>(first); j <= static_cast<int>(last); ++j)
       places.add(x[0] + (x[1] - x[0]) * (double(i - j) / n) + (x[2] - x[0]) * (double(j) / n),
                  reach);
+  }
 }
 
 } // namespace
@@ -126,10 +159,11 @@ std::vector<ToolPlace> tight_places(const Tool& tool, const ToolZoneRule& rule) 
   };
   ThinnedPlaces places(0.25 * least_reach);
   for (const auto& [side, radius] : sides)
-    cover({plan(side.first), plan(side.second), plan(side.second)}, reach(radius), places);
+    cover({plan(side.first), plan(side.second), plan(side.second)}, reach(radius), rule.window,
+          places);
   for (const Triangle& t : surface.triangles)
     if (const std::optional<double> radius = rounding_of(tight, sides, t))
-      cover({plan(t[0]), plan(t[1]), plan(t[2])}, reach(*radius), places);
+      cover({plan(t[0]), plan(t[1]), plan(t[2])}, reach(*radius), rule.window, places);
   return places.all;
 }
 

@@ -17,6 +17,9 @@ struct ToolZoneRule {
   /// unless given twice the radius there, or twice the element size if that is more
   std::optional<double> distance;
   double element_size = 0.0;
+  /// Places further from it than they reach are left out but for one of each piece of the surface:
+  /// of a tool that is far wider than the blank they would be millions. Empty: none are.
+  Eigen::AlignedBox2d window{};
 };
 
 /// Discs about all places of the tool's surface, where it lies at the start, whose tightest convex

@@ -87,6 +87,25 @@ MeshZone read_zone(const TableView& section, const Vec2& origin, const BlankSpec
   return zone;
 }
 
+/// Where the plies of a blank lie, seen from above; empty if it is not known.
+Eigen::AlignedBox2d plan_of(const Case& built, std::size_t blank) {
+  Eigen::AlignedBox2d box;
+  if (!has_outline(built.blanks[blank])) return box;
+  const Outline& outline = built.blanks[blank].outline;
+  std::vector<Vec2> points = outline.boundary;
+  for (const OutlineArc& arc : outline.arcs)
+    if (arc.hole < 0) {
+      const double radius = (outline.boundary[arc.side] - arc.centre).norm();
+      for (const Vec2& corner : {Vec2(1, 1), Vec2(1, -1), Vec2(-1, 1), Vec2(-1, -1)})
+        points.push_back(arc.centre + radius * corner);
+    }
+  for (const Ply& ply : built.plies)
+    if (at(ply.blank) == blank)
+      for (const Vec2& point : points)
+        box.extend(ply.seed + Eigen::Rotation2Dd(ply.rotation) * point);
+  return box;
+}
+
 /// Fills in the places of a zone along a tool.
 void place_zone(const TableView& section, Case& built, std::size_t blank, MeshZone& zone,
                 Diagnostics& diagnostics) {
@@ -102,7 +121,7 @@ void place_zone(const TableView& section, Case& built, std::size_t blank, MeshZo
     return;
   }
   zone.tool = static_cast<int>(tool - built.tools.begin());
-  ToolZoneRule rule{{}, {}, zone.element_size};
+  ToolZoneRule rule{{}, {}, zone.element_size, plan_of(built, blank)};
   if (given(section, "below_radius")) rule.below_radius = number(section, "below_radius");
   if (given(section, "distance")) rule.distance = number(section, "distance");
   zone.places = tight_places(*tool, rule);

@@ -61,6 +61,24 @@ TEST(ToolZone, KeepsToTheRadiusAndDistanceThatAreGiven) {
   EXPECT_FALSE(reached(near, {60.0, 0.0}));
 }
 
+/// Of a tool that is far wider than the blank only the places that reach the blank are made, and
+/// one of each piece of its surface; those are the same.
+TEST(ToolZone, OfAWindowAreThoseThatReachIt) {
+  const ToolZoneRule all{{}, 3.0, 3.0};
+  ToolZoneRule rule = all;
+  rule.window = Eigen::AlignedBox2d(Vec2(-60.0, -20.0), Vec2(10.0, 55.0));
+  const std::vector<ToolPlace> there = tight_places(die(), rule);
+  const auto count = [&](const std::vector<ToolPlace>& places) {
+    return std::count_if(places.begin(), places.end(), [&](const ToolPlace& place) {
+      return rule.window.exteriorDistance(place.at) < place.reach;
+    });
+  };
+  EXPECT_EQ(count(there), count(tight_places(die(), all)));
+  EXPECT_LT(there.size(), tight_places(die(), all).size());
+  const Tool wide = tool_of(Annulus{14.0, 99999.99, 4.0, 2.0});
+  EXPECT_LT(tight_places(wide, rule).size(), 50000U);
+}
+
 /// A box counts by its edges, rounded or sharp, not by its faces.
 TEST(ToolZone, HoldsTheEdgesOfABoxAndNotItsFaces) {
   for (const double edge : {4.0, 0.0}) {
