@@ -23,7 +23,7 @@ void bind_case(py::module_& m);       ///< python/bind_case.cpp: keys, mistakes,
 void bind_frames(py::module_& m);     ///< python/bind_frames.cpp: states, their difference
 void bind_scene(py::module_& m);      ///< python/bind_scene.cpp: cases before they run
 void bind_simulation(py::module_& m); ///< python/bind_simulation.cpp
-void bind_fit(py::module_& m); ///< python/identify/bind_fit.cpp: laws from curves, curves from laws
+void bind_identify(py::module_& m);   ///< python/identify/bind_identify.cpp: laws and curves
 
 /// Raises plyform.CaseError with these mistakes.
 [[noreturn]] void raise_mistakes(const std::vector<CaseError>& mistakes);

@@ -68,7 +68,7 @@ PYBIND11_MODULE(_plyform, m) {
   bind_frames(m);
   bind_scene(m);
   bind_simulation(m);
-  bind_fit(m);
+  bind_identify(m);
   m.def(
       "export_results", [](const std::filesystem::path& folder) { return export_results(folder); },
       py::arg("folder"),

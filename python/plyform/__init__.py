@@ -4,11 +4,9 @@
 Units: mm, N, s, degrees, mJ, N per yarn. docs/users/python.md shows how it is used.
 """
 
-from ._bending import (BendingFit, CompressionFit, InPlaneBendingFit, identify_cantilever,
-                       identify_compression, identify_in_plane_bending, identify_three_point)
 from ._case import Case, Check, Warned, predicted_error
 from ._errors import CaseError, Error, Stopped
-from ._fit import Fit, ShearFit, TensionFit, identify_shear, identify_tension, theory_shear
+from ._identify import Identified, Number, identify, identify_tests, theory_shear
 from ._parts import Parts
 from ._plyform import (BoundaryFrame, Difference, FirstContact, Frame, Key, KeyColumn, LivePly,
                        Mistake, Outlook, PlyFrame, PlyGap, PredictedError, Progress, Scene,
@@ -17,11 +15,10 @@ from ._run import Result, Simulation, difference, export, history, read, run
 
 __version__ = version
 __all__ = [
-    "BendingFit", "BoundaryFrame", "Case", "CaseError", "Check", "CompressionFit", "Difference",
-    "Error", "FirstContact", "Fit", "Frame", "InPlaneBendingFit", "Key", "KeyColumn", "LivePly",
-    "Mistake", "Outlook", "Parts", "PlyFrame", "PlyGap", "PredictedError", "Progress", "Result",
-    "Scene", "SceneBoundary", "ScenePly", "SceneTool", "ShearFit", "Simulation", "Stopped",
-    "TensionFit", "ToolFrame", "Warned", "difference", "export", "history", "identify_cantilever",
-    "identify_compression", "identify_in_plane_bending", "identify_shear", "identify_tension",
-    "identify_three_point", "keys", "predicted_error", "read", "run", "theory_shear", "version",
+    "BoundaryFrame", "Case", "CaseError", "Check", "Difference", "Error", "FirstContact", "Frame",
+    "Identified", "Key", "KeyColumn", "LivePly", "Mistake", "Number", "Outlook", "Parts", "PlyFrame",
+    "PlyGap", "PredictedError", "Progress", "Result", "Scene", "SceneBoundary", "ScenePly",
+    "SceneTool", "Simulation", "Stopped", "ToolFrame", "Warned", "difference", "export", "history",
+    "identify", "identify_tests", "keys", "predicted_error", "read", "run", "theory_shear",
+    "version",
 ]

@@ -340,61 +340,71 @@ def check_fits(folder):
     opening = plyform.theory_shear(FABRIC, bias=(200, 100), to_deg=45.0, points=60, negative=True)
     assert np.array_equal(opening["force_N"], theory["force_N"])  # an odd law
     assert np.array_equal(opening["shear_deg"], -theory["shear_deg"])
-    curve = theory["displacement_mm"], theory["force_N"]
-    fit = plyform.identify_shear(curve, FABRIC, bias=(200, 100))
-    assert np.allclose(fit.coefficients, [0.37044, 0.84105, 1.03113], rtol=1e-6) and fit.rms < 1e-6
-    assert fit.law == "polynomial of 3" and len(fit.table_deg) == 0 and fit.misfit < 1e-6
-    stuck = plyform.identify_shear(curve, FABRIC, bias=(200, 100), points=4, compliance=0, toe=0)
-    assert len(stuck.table_deg) == 5 and np.all(np.diff(stuck.table_torque) > 0.0)
-    stuck.write(FABRIC, folder / "stuck.toml")
+    curve = {"extension (mm)": theory["displacement_mm"], "load (N)": theory["force_N"]}
+    sizes = {"fabric": FABRIC, "length": 200, "width": 100}
+    fit = plyform.identify("bias", curve, output=folder / "fabric.toml", **sizes)
+    assert np.allclose(coefficients(fit), [0.37044, 0.84105, 1.03113], rtol=1e-6)
+    assert fit.numbers["residuals rms"].value < 1e-4 and "polynomial" in fit.said
+    assert len(fit.fit["measured_N"]) > 50 and np.allclose(fit.fit["measured_N"], fit.fit["fitted_N"], rtol=1e-6)
+    assert (folder / "fabric.toml").read_text(encoding="utf-8") == fit.text
+    stuck = plyform.identify("bias", curve, points=4, compliance=0, toe=0, **sizes)
+    stuck.write(folder / "stuck.toml")
     assert "table = [" in (folder / "stuck.toml").read_text(encoding="utf-8")
-    raised(ValueError, plyform.identify_shear, curve, FABRIC, bias=(200, 100), law="line")
     table = folder / "curve.csv"
-    np.savetxt(table, np.stack(curve, axis=1), delimiter=",", header="d,F", comments="")
-    again = plyform.identify_shear(table, FABRIC, bias=(200, 100), x_column="d", y_column=2)
-    assert np.allclose(again.coefficients, fit.coefficients, rtol=1e-6)
-    fit.write(FABRIC, folder / "fabric.toml")
+    np.savetxt(table, np.stack(list(curve.values()), axis=1), delimiter=",", header="d,F", comments="")
+    again = plyform.identify("bias", table, x_column="d", y_column=2, **sizes)
+    assert np.allclose(coefficients(again), coefficients(fit), rtol=1e-6)
     case = coarse(**{"fabrics.glass": folder / "fabric.toml"})
-    assert np.allclose(case.get("fabrics.glass.shear.polynomial"), fit.coefficients, rtol=1e-6)
+    assert np.allclose(case.get("fabrics.glass.shear.polynomial"), coefficients(fit), rtol=1e-6)
     strain = np.linspace(0.0, 0.01, 20)
-    line = plyform.identify_tension((strain, 4.0 * 46000.0 * strain), yarns=4)
-    assert np.isclose(line.stiffness, 46000.0) and len(line.table_strain) == 0
-    curved = plyform.identify_tension((strain, 5e6 * strain**2))
-    assert curved.stiffness is None and len(curved.table_strain) <= 20
-    curved.write("weft", folder / "fabric.toml", folder / "fabric2.toml")
+    curved = plyform.identify("weft", {"strain": strain, "force (N)": 5e6 * strain**2}, folder / "fabric.toml",
+                              folder / "fabric2.toml")
     case.set("fabrics.glass", folder / "fabric2.toml")
-    assert len(case.get("fabrics.glass.weft.table")) == len(curved.table_strain)
+    assert 1 < len(case.get("fabrics.glass.weft.table")) <= 21 and "table" in curved.law
     assert case.get("fabrics.glass.weft.stiffness") is None
-    error = raised(plyform.CaseError, plyform.identify_shear, curve, FABRIC, bias=(150, 100))
+    error = raised(plyform.CaseError, plyform.identify, "bias", curve, FABRIC, length=150, width=100)
     assert error.mistakes[0].item == "length" and error.mistakes[0].remedy
-    raised(ValueError, plyform.identify_shear, curve, FABRIC)
+    for wrong in ({"width": None}, {"law": "line"}, {"side": 5}, {"points": 2.5}, {"from": "x"}):
+        raised(ValueError, plyform.identify, "bias", curve, **{**sizes, **wrong})
+    raised(ValueError, plyform.identify, "bend", curve, **sizes)
+    raised(ValueError, plyform.identify, "bias", {"d (mm)": [1, 2], "F (N)": [1]}, **sizes)
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         noise = 1.0 + 0.05 * (-1.0) ** np.arange(61)
-        plyform.identify_shear((curve[0], curve[1] * noise), FABRIC, bias=(200, 100), compliance=0,
-                               toe=0)
+        plyform.identify("bias", {**curve, "load (N)": curve["load (N)"] * noise}, compliance=0, toe=0, **sizes)
     assert len(told) == 1 and "noise" in str(told[0].message)
-    check_corrections(theory, curve)
+    check_corrections(theory, curve, {**sizes, "compliance": 0})
 
 
-def check_corrections(theory, curve):
-    """What a machine adds is refused, taken off, told; several specimens; measured angles."""
-    known = dict(fabric=FABRIC, bias=(200, 100), compliance=0)
-    off = curve[0], curve[1] + 0.03 * curve[1].max()
-    error = raised(plyform.CaseError, plyform.identify_shear, off, **known)
+def coefficients(found):
+    return [found.numbers[f"k{k}"].value for k in (1, 3, 5)]
+
+
+def check_corrections(theory, curve, known):
+    """What a machine adds is refused, taken off, told; several specimens; measured angles; options that
+    the command line has: as it finds them."""
+    extension, load = curve.values()
+    columns = list(curve)
+
+    def with_load(values):
+        return dict(zip(columns, (extension, values)))
+    off = with_load(load + 0.03 * load.max())
+    error = raised(plyform.CaseError, plyform.identify, "bias", off, **known)
     assert "load zero" in error.mistakes[0].rule
-    found = plyform.identify_shear(off, zero="fit", **known)
-    assert np.allclose(found.coefficients, [0.37044, 0.84105, 1.03113], rtol=1e-3)
-    pair = [(curve[0], 0.9 * curve[1]), (curve[0], 1.1 * curve[1])]
-    both = plyform.identify_shear(pair, **known)
-    assert np.isclose(both.scatter, 0.1 * np.sqrt(2)) and len(both.of_specimens) == 2
-    assert len(both.limits) == 3 and min(both.limits) > 0.0
-    slipped = curve[0] * 1.05, curve[1], theory["shear_deg"]
+    found = plyform.identify("bias", off, zero="fit", **known)
+    assert np.allclose(coefficients(found), [0.37044, 0.84105, 1.03113], rtol=1e-3)
+    both = plyform.identify("bias", [with_load(0.9 * load), with_load(1.1 * load)], **known)
+    assert len(set(both.fit["specimen"])) == 2 and min(both.numbers[f"k{k}"].limits for k in (1, 3, 5)) > 0.0
+    slipped = {columns[0]: extension * 1.05, columns[1]: load, "shear angle (deg)": theory["shear_deg"]}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        angles = plyform.identify_shear(slipped, FABRIC, bias=(200, 100))
-    assert np.allclose(angles.coefficients, [0.37044, 0.84105, 1.03113], rtol=1e-6)
-    raised(ValueError, plyform.identify_shear, off, zero="none", **known)
+        angles = plyform.identify("bias", slipped, **{**known, "compliance": None})
+    assert np.allclose(coefficients(angles), [0.37044, 0.84105, 1.03113], rtol=1e-6)
+    raised(plyform.CaseError, plyform.identify, "bias", off, zero="none", **known)
+    signs = plyform.identify("bias", curve, negative=[with_load(1.5 * load)], **known)
+    assert "negative_polynomial" in signs.text or "table" in signs.text, signs.text
+    names = [one["name"] for one in plyform.identify_tests()]
+    assert len(names) == len(set(names)) == 14 and "compaction" in names
 
 
 def check_page(folder):

@@ -2,7 +2,7 @@
 // plyform identify uniaxial and equibiaxial: laws of sheets of rubber.
 #pragma once
 
-#include "tools/cli/identify/identify_parts.hpp"
+#include "tools/identify/identify_parts.hpp"
 
 namespace plyform {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shear at several speeds, and relaxation, in words, as TOML and as CSV.
-#include "tools/cli/identify/identify_rates.hpp"
+#include "tools/identify/identify_rates.hpp"
 
 #include "base/format.hpp"
 #include "core/identify/fit_rates.hpp"

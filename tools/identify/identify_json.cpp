@@ -2,7 +2,7 @@
 // What plyform identify has found, or why it has refused, as JSON for programs.
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
-#include "tools/cli/identify/identify_parts.hpp"
+#include "tools/identify/identify_parts.hpp"
 
 #include <algorithm>
 #include <cmath>

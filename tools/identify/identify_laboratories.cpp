@@ -5,8 +5,8 @@
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "core/identify/laboratories.hpp"
-#include "tools/cli/identify/identify_parts.hpp"
-#include "tools/cli/identify/identify_ranges.hpp"
+#include "tools/identify/identify_parts.hpp"
+#include "tools/identify/identify_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -200,8 +200,10 @@ std::string csv_of(const LaboratoryMean& mean) {
   return text;
 }
 
-void write_fabric(const Deviated& deviated, const IdentifyArguments& a, const FabricReading& base,
-                  const std::vector<std::string>& lines, const LaboratoryMean& mean) {
+/// Returns what it says of a law that is cut, or nothing.
+std::string write_fabric(const Deviated& deviated, const IdentifyArguments& a,
+                         const FabricReading& base, const std::vector<std::string>& lines,
+                         const LaboratoryMean& mean) {
   const DeviatedLaw law = deviated_law(mean, deviated.deviations);
   std::vector<std::string> comment{
       fmt::format("Identified by plyform {} from {}:", version(), files_of(a)),
@@ -212,13 +214,15 @@ void write_fabric(const Deviated& deviated, const IdentifyArguments& a, const Fa
   for (const std::string& line : lines)
     comment.push_back(fmt::format("{}{}", line, &line == &lines.back() ? "." : ";"));
   const std::string cut = cut_line(law);
+  std::string said;
   if (!cut.empty()) {
     comment.insert(comment.begin() + 3, fmt::format("{};", cut));
-    fmt::print("  {}: {}\n", deviated.file.filename().string(), cut);
+    said = fmt::format("  {}: {}\n", deviated.file.filename().string(), cut);
   }
   LawText text = law_text(base, law);
   text.comment = comment;
   write_whole(deviated.file, with_law(base.text, text));
+  return said;
 }
 
 bool check_laboratories(const IdentifyArguments& a, const fs::path& table,
@@ -265,14 +269,11 @@ bool are_laboratories(const IdentifyArguments& a) {
          });
 }
 
-int identify_laboratories(const IdentifyArguments& a, const fs::path& table,
-                          const FabricReading& base, const PreparedShear& test,
-                          const std::vector<Curve>& curves, const FitOptions& options,
-                          Diagnostics& diagnostics) {
-  if (!check_laboratories(a, table, diagnostics)) {
-    print_diagnostics(diagnostics);
-    return exit_case_wrong;
-  }
+std::optional<std::string>
+identify_laboratories(const IdentifyArguments& a, const fs::path& table, const FabricReading& base,
+                      const PreparedShear& test, const std::vector<Curve>& curves,
+                      const FitOptions& options, Diagnostics& diagnostics) {
+  if (!check_laboratories(a, table, diagnostics)) return std::nullopt;
   const std::vector<Found> found = laws_of(a, *base.value, test.test, curves, options, diagnostics);
   if (diagnostics.errors.empty() &&
       std::none_of(found.begin(), found.end(),
@@ -285,27 +286,26 @@ int identify_laboratories(const IdentifyArguments& a, const fs::path& table,
     for (const Deviated& deviated : deviated_files(a.output))
       fabric_text(a, base, {law_text(base, deviated_law(mean, deviated.deviations))}, diagnostics);
   }
-  if (print_diagnostics(diagnostics)) return exit_case_wrong;
+  if (!diagnostics.errors.empty()) return std::nullopt;
   std::vector<std::string> lines{scatter_line(mean)};
   lines.insert(lines.end(), test.assumed.begin(), test.assumed.end());
   for (const double angle : told_angles(mean))
     lines.push_back(line_at(mean, angle));
   if (const std::string reach = reach_line(mean); !reach.empty()) lines.push_back(reach);
-  fmt::print("{}\n", lines.front());
-  fmt::print("shear law of {} from {} laboratories, {} curves\n  {}\n", base.value->name,
-             mean.laboratories.size(), found.size(), test_words(a));
+  std::string said =
+      fmt::format("{}\nshear law of {} from {} laboratories, {} curves\n  {}\n", lines.front(),
+                  base.value->name, mean.laboratories.size(), found.size(), test_words(a));
   for (std::size_t i = 1; i < lines.size(); ++i)
-    fmt::print("  {}\n", lines[i]);
+    said += fmt::format("  {}\n", lines[i]);
   for (const LaboratoryLaw& laboratory : mean.laboratories)
-    fmt::print("  {}\n", laboratory_line(laboratory, mean, found));
+    said += fmt::format("  {}\n", laboratory_line(laboratory, mean, found));
   std::string written;
   for (const Deviated& deviated : deviated_files(a.output)) {
-    write_fabric(deviated, a, base, lines, mean);
+    said += write_fabric(deviated, a, base, lines, mean);
     written += fmt::format("{}, ", deviated.file.string());
   }
   write_whole(table, csv_of(mean));
-  fmt::print("written: {}{}\n", written, table.string());
-  return exit_done;
+  return said + fmt::format("written: {}{}\n", written, table.string());
 }
 
 } // namespace plyform

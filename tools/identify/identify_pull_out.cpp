@@ -4,8 +4,8 @@
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "core/identify/fit_pull_out.hpp"
-#include "tools/cli/identify/identify_ranges.hpp"
-#include "tools/cli/identify/identify_rates.hpp"
+#include "tools/identify/identify_ranges.hpp"
+#include "tools/identify/identify_rates.hpp"
 
 #include <cmath>
 
@@ -104,12 +104,13 @@ Identified pull_out_text(const IdentifyArguments& a, const PullOutFit& fit) {
 
 } // namespace
 
-int identify_pull_out_command(const IdentifyArguments& a) {
+Identification identify_pull_out_curves(const IdentifyArguments& a) {
   const fs::path output = a.output;
   const fs::path fit_file = a.fit.empty()
                                 ? output.parent_path() / (output.stem().string() + "_fit.csv")
                                 : fs::path(a.fit);
-  Diagnostics diagnostics;
+  Identification outcome;
+  Diagnostics& diagnostics = outcome.diagnostics;
   std::vector<fs::path> read;
   for (const std::string& curve : a.curves)
     read.emplace_back(curve_argument(curve).file);
@@ -133,17 +134,17 @@ int identify_pull_out_command(const IdentifyArguments& a) {
       hold_to_keys(held.errors, held.warnings, {"friction." + a.name},
                    {curve_argument(a.curves.front()).file, 1, 1}, diagnostics);
     }
-  const bool refused = print_diagnostics(diagnostics);
+  const bool refused = !diagnostics.errors.empty();
   if (report) write_report(a, fit_file.string(), {}, refused ? std::nullopt : result, diagnostics);
-  if (refused) return exit_case_wrong;
+  if (refused) return outcome;
   write_whole(fit_file, result->fit);
   write_whole(output, toml);
-  fmt::print("{} from {}\n  {}\n", result->title, files_of(a), result->law_line);
+  outcome.said = fmt::format("{} from {}\n  {}\n", result->title, files_of(a), result->law_line);
   for (const std::vector<std::string>* lines : {&result->figures, &result->notes})
     for (const std::string& line : *lines)
-      fmt::print("  {}\n", line);
-  fmt::print("written: {}, {}\n", a.output, fit_file.string());
-  return exit_done;
+      outcome.said += fmt::format("  {}\n", line);
+  outcome.said += fmt::format("written: {}, {}\n", a.output, fit_file.string());
+  return outcome;
 }
 
 } // namespace plyform

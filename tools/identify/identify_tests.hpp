@@ -3,7 +3,7 @@
 // programs (plyform keys --identify) and the page of the workbench are made of this.
 #pragma once
 
-#include "tools/cli/identify/identify_parts.hpp"
+#include "tools/identify/identify_parts.hpp"
 
 #include <functional>
 #include <string>
@@ -54,6 +54,8 @@ struct IdentifyTest {
 };
 
 const std::vector<IdentifyTest>& identify_tests();
+/// All of it but what it is done by, as JSON for programs.
+std::string identify_tests_json();
 /// Of that name, which must be one.
 const IdentifyTest& identify_test(const std::string& name);
 

@@ -6,8 +6,8 @@
 #include "core/identify/measured_angle.hpp"
 #include "core/identify/normalised_force.hpp"
 #include "core/identify/slip.hpp"
-#include "tools/cli/identify/identify_parts.hpp"
-#include "tools/cli/identify/identify_rubber.hpp"
+#include "tools/identify/identify_parts.hpp"
+#include "tools/identify/identify_rubber.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // The law through the thickness: in words, as TOML and as CSV.
 #include "base/format.hpp"
 #include "core/identify/fit_compaction.hpp"
-#include "tools/cli/identify/identify_tests.hpp"
+#include "tools/identify/identify_tests.hpp"
 
 #include <limits>
 
@@ -101,8 +101,8 @@ std::optional<Identified> find_compaction(const TestInput& in, Diagnostics& diag
         fmt::format("thickness without pressure is {:.4g} mm now, and was {:.4g}",
                     fit->loading.thickness.front(), fabric.thickness));
   const bool several = in.curves.size() > 1;
-  result.fit =
-      std::string("pressure_N_mm2,thickness_mm,fitted_thickness_mm") + (several ? ",specimen\n" : "\n");
+  result.fit = std::string("pressure_N_mm2,thickness_mm,fitted_thickness_mm") +
+               (several ? ",specimen\n" : "\n");
   for (std::size_t i = 0; i < fit->pressure.size(); ++i)
     result.fit +=
         fmt::format("{:.9g},{:.9g},{:.9g}{}\n", fit->pressure[i], fit->measured[i], fit->fitted[i],

@@ -3,7 +3,7 @@
 // of these keys: what no case could use is refused, what is unusual is warned of.
 #pragma once
 
-#include "tools/cli/identify/identify_parts.hpp"
+#include "tools/identify/identify_parts.hpp"
 
 namespace plyform {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of plyform identify and plyform theory on the command line, and those of identify as
-// JSON for programs.
-#include "tools/cli/identify/identify_tests.hpp"
+// The options of plyform identify and plyform theory on the command line.
+#include "tools/cli/commands.hpp"
+#include "tools/identify/identify_tests.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace plyform {
 namespace {
@@ -33,18 +32,6 @@ void add_option(CLI::App& test, const TestOption& one, IdentifyArguments& to) {
   option->required(one.required);
 }
 
-/// As programs have it.
-const char* word_of(Kind kind) {
-  constexpr const char* words[] = {"number", "numbers", "fit",  "only fit",
-                                   "text",   "choice",  "flag", "files"};
-  return words[static_cast<int>(kind)];
-}
-
-const char* word_of(TestOption::Place place) {
-  constexpr const char* words[] = {"size", "more", "command"};
-  return words[static_cast<int>(place)];
-}
-
 void add_specimen(CLI::App& test, const std::string& name, SpecimenArguments& to) {
   if (name == "bias") {
     test.add_option("--length", to.length, "free length between the clamps, mm")->required();
@@ -67,30 +54,6 @@ void add_identify_tests(CLI::App& command, IdentifyArguments& to) {
       add_option(*test, option, to);
     test->callback([&to, name = one.name] { to.test = name; });
   }
-}
-
-std::string identify_tests_json() {
-  using Json = nlohmann::ordered_json;
-  Json all = Json::array();
-  for (const IdentifyTest& test : identify_tests()) {
-    Json options = Json::array();
-    for (const TestOption& one : test.options) {
-      options.push_back({{"name", one.name},
-                         {"kind", word_of(one.kind)},
-                         {"unit", one.unit},
-                         {"words", one.words},
-                         {"place", word_of(one.place)},
-                         {"required", one.required}});
-      if (one.kind == Kind::choice) options.back()["choices"] = one.choices;
-    }
-    all.push_back({{"name", test.name},
-                   {"title", test.title},
-                   {"gives", test.gives},
-                   {"curve", test.curve},
-                   {"changes_fabric", test.changes_fabric},
-                   {"options", options}});
-  }
-  return all.dump();
 }
 
 void add_theory_tests(CLI::App& command, TheoryArguments& to) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bending stiffnesses in words, as TOML and as CSV.
 #include "base/format.hpp"
-#include "tools/cli/identify/identify_parts.hpp"
+#include "tools/identify/identify_parts.hpp"
 
 #include <limits>
 

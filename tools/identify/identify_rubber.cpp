@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The law of a sheet of rubber from tension curves: in words, as TOML and as CSV.
-#include "tools/cli/identify/identify_rubber.hpp"
+#include "tools/identify/identify_rubber.hpp"
 
 #include "base/format.hpp"
 #include "core/identify/fit_rubber.hpp"

@@ -5,8 +5,8 @@
 #include "core/identify/fit_signs.hpp"
 #include "core/identify/fit_stitch.hpp"
 #include "core/identify/stitch_load.hpp"
-#include "tools/cli/identify/identify_parts.hpp"
-#include "tools/cli/identify/identify_rubber.hpp"
+#include "tools/identify/identify_parts.hpp"
+#include "tools/identify/identify_rubber.hpp"
 
 #include <algorithm>
 #include <cmath>

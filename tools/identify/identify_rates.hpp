@@ -2,7 +2,8 @@
 // plyform identify of what depends on rates: shear at several speeds, relaxation, pull-out.
 #pragma once
 
-#include "tools/cli/identify/identify_parts.hpp"
+#include "tools/identify/identify.hpp"
+#include "tools/identify/identify_parts.hpp"
 
 namespace plyform {
 
@@ -23,7 +24,7 @@ std::optional<Identified> identify_relaxation_curve(const IdentifyArguments& arg
 /// Time (s) and load (N).
 CurveColumns relaxation_columns();
 
-/// The whole command of a test that is of no fabric: its output is the [friction.NAME] of a case.
-int identify_pull_out_command(const IdentifyArguments& arguments);
+/// Of a test that is of no fabric: its output is the [friction.NAME] of a case.
+Identification identify_pull_out_curves(const IdentifyArguments& arguments);
 
 } // namespace plyform

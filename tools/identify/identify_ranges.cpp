@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/cli/identify/identify_ranges.hpp"
+#include "tools/identify/identify_ranges.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // Options of the rows of identify_tests.cpp in short.
 #pragma once
 
-#include "tools/cli/identify/identify_tests.hpp"
+#include "tools/identify/identify_tests.hpp"
 
 #include <initializer_list>
 #include <utility>

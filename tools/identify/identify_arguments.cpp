@@ -3,9 +3,9 @@
 #include "base/format.hpp"
 #include "base/outputs.hpp"
 #include "base/text.hpp"
-#include "tools/cli/identify/identify_rates.hpp"
-#include "tools/cli/identify/identify_rubber.hpp"
-#include "tools/cli/identify/identify_tests.hpp"
+#include "tools/identify/identify_rates.hpp"
+#include "tools/identify/identify_rubber.hpp"
+#include "tools/identify/identify_tests.hpp"
 
 #include <cmath>
 
@@ -79,14 +79,6 @@ Correction correction_of(const std::string& option, const std::string& text, boo
 void option_error(const std::string& option, const std::string& value, const std::string& rule,
                   const std::string& remedy, Diagnostics& diagnostics) {
   diagnostics.error({option, 1, 1}, option.substr(2), value, rule, remedy);
-}
-
-bool print_diagnostics(const Diagnostics& diagnostics) {
-  for (const std::string& warning : diagnostics.warnings)
-    fmt::print(stderr, "{}\n", warning);
-  for (const CaseError& error : diagnostics.errors)
-    fmt::print(stderr, "{}\n", error.text());
-  return !diagnostics.errors.empty();
 }
 
 void check_output(const std::string& option, const fs::path& output,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the sources of plyform identify and plyform theory share.
+// What the sources of identification share.
 #pragma once
 
 #include "core/identify/bending_tests.hpp"
 #include "core/identify/fit_shear.hpp"
 #include "core/identify/fit_tension.hpp"
 #include "core/input/parts/fabric_file.hpp"
-#include "tools/cli/commands.hpp"
+#include "tools/identify/arguments.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -31,11 +31,9 @@ struct Identified {
   std::vector<LawNumber> numbers;    ///< of the law and its residuals, for programs
 };
 
-/// tools/cli/identify/identify_arguments.cpp
+/// tools/identify/identify_arguments.cpp
 void option_error(const std::string& option, const std::string& value, const std::string& rule,
                   const std::string& remedy, Diagnostics& diagnostics);
-/// Prints warnings, then errors; returns whether there are errors.
-bool print_diagnostics(const Diagnostics& diagnostics);
 /// Reports an error if an output file is one of the other files read or written, or if its
 /// temporary name is.
 void check_output(const std::string& option, const std::filesystem::path& output,
@@ -59,7 +57,7 @@ CurveColumns columns_of(const IdentifyArguments& arguments);
 /// "bias-extension test, 300 x 100 mm, equation (40) read backwards".
 std::string test_words(const IdentifyArguments& arguments);
 
-/// tools/cli/identify/identify_report.cpp
+/// tools/identify/identify_report.cpp
 /// What has been taken off a curve; empty if nothing. `unit` of its x: " mm".
 std::string corrections_text(const Corrected& corrected, const std::string& unit);
 std::string confidence_text(const std::string& of_coefficients, const std::string& law,
@@ -68,7 +66,7 @@ std::string confidence_text(const std::string& of_coefficients, const std::strin
 /// What each disturbance would do to the law, of the specimen that it moves most.
 std::string sensitivity_text(const std::vector<SpecimenLaw>& specimens, const std::string& length,
                              bool displacement, bool stretch);
-/// tools/cli/identify/identify_curves.cpp
+/// tools/identify/identify_curves.cpp
 /// A curve as named on the command line: FILE, FILE:COLUMN or NAME=FILE:COLUMN, where FILE is one
 /// and the whole text is not.
 struct CurveArgument {
@@ -97,22 +95,23 @@ std::vector<std::string> slip_lines(const IdentifyArguments& arguments,
 /// Names of the curves, without folders.
 std::string files_of(const IdentifyArguments& arguments);
 
-/// tools/cli/identify/identify_laboratories.cpp
+/// tools/identify/identify_laboratories.cpp
 /// Its name, else its column's, else its file's.
 std::string laboratory_of(const CurveArgument& argument);
 /// Whether each curve is of a laboratory, not of a specimen.
 bool are_laboratories(const IdentifyArguments& arguments);
-/// Reports, writes the three fabric files and the table; returns the exit code.
-int identify_laboratories(const IdentifyArguments& arguments, const std::filesystem::path& table,
-                          const FabricReading& base, const PreparedShear& test,
-                          const std::vector<Curve>& curves, const FitOptions& options,
-                          Diagnostics& diagnostics);
+/// Writes the three fabric files and the table; returns what it says of them, or nothing.
+std::optional<std::string>
+identify_laboratories(const IdentifyArguments& arguments, const std::filesystem::path& table,
+                      const FabricReading& base, const PreparedShear& test,
+                      const std::vector<Curve>& curves, const FitOptions& options,
+                      Diagnostics& diagnostics);
 
-/// tools/cli/identify/identify_report.cpp
+/// tools/identify/identify_report.cpp
 Identified shear_text(const ShearFit& fit);
 Identified tension_text(const TensionFit& fit, const IdentifyArguments& arguments);
 Identified compression_text(const CompressionFit& fit, const IdentifyArguments& arguments);
-/// tools/cli/identify/identify_groups.cpp: specimens of two kinds, `others` those of negative shear
+/// tools/identify/identify_groups.cpp: specimens of two kinds, `others` those of negative shear
 /// angles or along the weft; or of a fabric with stitches, whose loads are taken off.
 bool has_groups(const IdentifyArguments& arguments, const Fabric& fabric);
 std::optional<Identified> identify_groups(const IdentifyArguments& arguments,
@@ -124,10 +123,10 @@ std::optional<Identified> identify_groups(const IdentifyArguments& arguments,
 /// Checks what of the arguments is about two kinds of specimens.
 void check_groups(const IdentifyArguments& arguments, const FabricReading& base,
                   Diagnostics& diagnostics);
-/// tools/cli/identify/identify_biaxial.cpp: reads the curves and finds yarns and crimps.
+/// tools/identify/identify_biaxial.cpp: reads the curves and finds yarns and crimps.
 std::optional<Identified> identify_biaxial_files(const IdentifyArguments& arguments,
                                                  const Fabric& fabric, Diagnostics& diagnostics);
-/// tools/cli/identify/identify_bending.cpp
+/// tools/identify/identify_bending.cpp
 Identified bending_text(const BendingFit& fit, const IdentifyArguments& arguments);
 Identified zone_text(const ZoneFit& fit, const IdentifyArguments& arguments);
 /// "warp", "weft", or both.
@@ -135,7 +134,7 @@ std::vector<std::string> families_of(const std::string& direction);
 std::string figure_of_residuals(const FitQuality& quality, const std::string& at);
 /// Rows and residuals (%), beside the numbers of the law.
 void put_quality(const FitQuality& quality, Identified& result);
-/// tools/cli/identify/identify_json.cpp: writes arguments.report; `result` is missing where the
+/// tools/identify/identify_json.cpp: writes arguments.report; `result` is missing where the
 /// curve is refused.
 void write_report(const IdentifyArguments& arguments, const std::string& fit_file,
                   const FabricReading& base, const std::optional<Identified>& result,

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plyform identify: measured curves -> law -> fabric file.
+// Measured curves -> law -> fabric file.
 #include "base/format.hpp"
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
-#include "tools/cli/identify/identify_ranges.hpp"
-#include "tools/cli/identify/identify_rates.hpp"
-#include "tools/cli/identify/identify_rubber.hpp"
-#include "tools/cli/identify/identify_tests.hpp"
-#include "tools/cli/progress_line.hpp"
+#include "tools/identify/identify_ranges.hpp"
+#include "tools/identify/identify_rates.hpp"
+#include "tools/identify/identify_rubber.hpp"
+#include "tools/identify/identify_tests.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -99,26 +98,30 @@ std::string text_of(const IdentifyArguments& a, const FabricReading& base, const
   return fabric_text(a, base, laws, diagnostics);
 }
 
-void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
-                      const FabricReading& base, const Identified& result,
-                      const std::string& text) {
+/// Returns what is said of it.
+std::string write_and_tell(const IdentifyArguments& a, const fs::path& fit_file,
+                           const FabricReading& base, const Identified& result,
+                           const std::string& text) {
   write_whole(fit_file, result.fit);
   write_whole(a.output, text);
-  fmt::print("{} of {} from {}\n", result.title, base.value->name, files_of(a));
-  fmt::print("  {}\n  {}\n", test_words(a), result.law_line);
+  std::string said;
+  said += fmt::format("{} of {} from {}\n", result.title, base.value->name, files_of(a));
+  said += fmt::format("  {}\n  {}\n", test_words(a), result.law_line);
   for (const std::string& figure : result.figures)
-    fmt::print("  {}\n", figure);
+    said += fmt::format("  {}\n", figure);
   for (const std::string& note : result.notes)
-    fmt::print("  {}\n", note);
+    said += fmt::format("  {}\n", note);
   for (const std::string& missing : base.missing)
     if (std::find(result.provides.begin(), result.provides.end(), missing) == result.provides.end())
-      fmt::print("  still without a law: {}; no case can use the fabric before\n", missing);
-  fmt::print("written: {}, {}\n", a.output, fit_file.string());
+      said +=
+          fmt::format("  still without a law: {}; no case can use the fabric before\n", missing);
+  said += fmt::format("written: {}, {}\n", a.output, fit_file.string());
   fs::path picture = fit_file;
   if (is_shear_test(a.test) || is_tension_test(a.test) || is_rubber_test(a.test) ||
       (a.test == "three-point" && result.laws.front().key == "bending_stiffness"))
-    fmt::print("plot: tools/plot.py fit {} -o {}\n", fit_file.string(),
-               picture.replace_extension(".png").string());
+    said += fmt::format("plot: tools/plot.py fit {} -o {}\n", fit_file.string(),
+                        picture.replace_extension(".png").string());
+  return said;
 }
 
 /// Whether a report is asked for, in a place that was not refused: there lies another file.
@@ -192,8 +195,9 @@ std::optional<Identified> find_zone(const TestInput& in, Diagnostics& diagnostic
   return fit ? std::optional(zone_text(*fit, in.arguments)) : std::nullopt;
 }
 
-int identify_command(const IdentifyArguments& arguments) {
-  if (arguments.test == "pull-out") return identify_pull_out_command(arguments);
+Identification identify(const IdentifyArguments& arguments,
+                        const std::function<void(double fraction)>& progress) {
+  if (arguments.test == "pull-out") return identify_pull_out_curves(arguments);
   const bool shear = is_shear_test(arguments.test);
   const bool laboratories = are_laboratories(arguments);
   const fs::path output = arguments.output;
@@ -202,14 +206,11 @@ int identify_command(const IdentifyArguments& arguments) {
           ? output.parent_path() /
                 (output.stem().string() + (laboratories ? "_laboratories.csv" : "_fit.csv"))
           : fs::path(arguments.fit);
-  Diagnostics diagnostics;
+  Identification outcome;
+  Diagnostics& diagnostics = outcome.diagnostics;
   check_arguments(arguments, fit, diagnostics);
   FitOptions options = fit_options(arguments, diagnostics);
-  ProgressLine line;
-  options.progress = [&](double fraction) {
-    line.show("chooses the law of shear", fraction);
-    if (fraction == 1.0) line.end(); // what it prints comes after
-  };
+  options.progress = progress;
   const FabricReading base = is_rubber_test(arguments.test)
                                  ? rubber_of(arguments.fabric, diagnostics)
                                  : fabric_of(arguments.fabric, shear, diagnostics);
@@ -228,8 +229,12 @@ int identify_command(const IdentifyArguments& arguments) {
                         "its law of shear is one of both signs; what is identified takes its "
                         "place, and is the same for both: copy the rows or the "
                         "negative_polynomial that you want to keep");
-  if (laboratories && test && diagnostics.errors.empty())
-    return identify_laboratories(arguments, fit, base, *test, kinds.curves, options, diagnostics);
+  if (laboratories && test && diagnostics.errors.empty()) {
+    outcome.said =
+        identify_laboratories(arguments, fit, base, *test, kinds.curves, options, diagnostics)
+            .value_or("");
+    return outcome;
+  }
   std::optional<Identified> result;
   if (diagnostics.errors.empty())
     result =
@@ -239,13 +244,13 @@ int identify_command(const IdentifyArguments& arguments) {
             : identify_test(arguments.test)
                   .find({arguments, base, test, kinds.curves, kinds.others, options}, diagnostics);
   const std::string text = result ? text_of(arguments, base, *result, diagnostics) : "";
-  const bool refused = print_diagnostics(diagnostics);
+  const bool refused = !diagnostics.errors.empty();
   if (may_be_reported(arguments, diagnostics))
     write_report(arguments, fit.string(), base, refused ? std::nullopt : result, diagnostics);
-  if (refused) return exit_case_wrong;
+  if (refused) return outcome;
   if (!result) throw std::logic_error("no law and no reason for it");
-  write_and_report(arguments, fit, base, *result, text);
-  return exit_done;
+  outcome.said = write_and_tell(arguments, fit, base, *result, text);
+  return outcome;
 }
 
 } // namespace plyform

@@ -2,7 +2,7 @@
 // Yarns and crimps from biaxial tension curves: in words, as TOML and as CSV.
 #include "base/format.hpp"
 #include "core/identify/fit_biaxial.hpp"
-#include "tools/cli/identify/identify_parts.hpp"
+#include "tools/identify/identify_parts.hpp"
 
 namespace plyform {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/format.hpp"
 #include "core/identify/test_columns.hpp"
-#include "tools/cli/identify/identify_rates.hpp"
-#include "tools/cli/identify/option_rows.hpp"
+#include "tools/identify/identify_rates.hpp"
+#include "tools/identify/option_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
