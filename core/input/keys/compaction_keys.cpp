@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/compaction_keys.hpp"
 
-#include "core/model/compaction.hpp"
-
 #include "core/input/keys/key_member.hpp"
+#include "core/model/compaction.hpp"
 #include "core/model/usual_ranges.hpp"
 
 namespace plyform {
