@@ -133,7 +133,7 @@ class Identify {
     else if (option.kind === "only fit") control = select([["", "–"], ["fit", "find it"]], "", { id });
     else {
       control = element("input", { id, size: 12, autocomplete: "off",
-        placeholder: { fit: "number or fit", numbers: "1, 2, 3" }[option.kind] || "" });
+        placeholder: { fit: "number or fit", numbers: "1,2,3" }[option.kind] || "" });
     }
     this.fields.set(option.name, () => control.value.trim());
     const made = labelled(title, control);
