@@ -28,5 +28,5 @@ built=yes
 tools/build.sh "$preset" || built=no
 wait $! || { cat "$log" >&2 && exit 1; }
 [ $built = yes ] || exit 1
-printf '== %s\n' "Tests (two cores: twenty minutes; with --all forty)"
+printf '== %s\n' "Tests (two cores: fifteen minutes; with --all forty)"
 ctest --preset "$tests" --parallel "$(nproc)" --no-label-summary "$@"

@@ -133,6 +133,7 @@ void cover(const std::array<Vec2, 3>& x, double reach, const Eigen::AlignedBox2d
     if (!near.isEmpty())
       std::tie(first, last) =
           within(near, x[0] + (x[1] - x[0]) * (double(i) / n), (x[2] - x[1]) / n, most);
+    if (!(first <= last)) continue; // else both are of the row
     for (int j = static_cast<int>(first); j <= static_cast<int>(last); ++j)
       places.add(x[0] + (x[1] - x[0]) * (double(i - j) / n) + (x[2] - x[0]) * (double(j) / n),
                  reach);
