@@ -148,7 +148,8 @@ std::vector<ToolPlace> tight_places(const Tool& tool, const ToolZoneRule& rule) 
   const double twice = std::isfinite(tightest) ? 2.0 * tightest : 0.0;
   const double below = rule.below_radius.value_or(std::max(twice, 0.1 * diagonal));
   const auto reach = [&rule](double radius) {
-    return rule.distance.value_or(2.0 * std::max(radius, rule.element_size));
+    return std::max(rule.distance.value_or(2.0 * std::max(radius, rule.element_size)),
+                    0.1 * rule.element_size); // less is no part of an element
   };
   const double least_reach = reach(std::min(tightest, below));
   const TriMesh surface = tessellate(tool.shape, diagonal / 60.0, diagonal);
