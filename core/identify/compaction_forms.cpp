@@ -117,24 +117,10 @@ FormFit fit_form(CompactionForm form, const CompactionRows& rows) {
 }
 
 std::vector<double> rising_volumes(const CompactionRows& rows) {
-  struct Pool {
-    double sum;
-    std::size_t count;
-    double mean() const { return sum / static_cast<double>(count); }
-  };
-  std::vector<Pool> pools;
-  for (const CompactionRow& row : rows) {
-    pools.push_back({row.volume, 1});
-    while (pools.size() > 1 && pools[pools.size() - 2].mean() >= pools.back().mean()) {
-      pools[pools.size() - 2].sum += pools.back().sum;
-      pools[pools.size() - 2].count += pools.back().count;
-      pools.pop_back();
-    }
-  }
-  std::vector<double> rising;
-  for (const Pool& pool : pools)
-    rising.insert(rising.end(), pool.count, pool.mean());
-  return rising;
+  std::vector<double> volumes;
+  for (const CompactionRow& row : rows)
+    volumes.push_back(row.volume);
+  return nearest_rising(volumes);
 }
 
 double scatter_of_rows(const CompactionRows& rows) {

@@ -31,7 +31,7 @@ double volume_at(CompactionForm form, const FormNumbers& law, double pressure);
 /// Least squares of ln V, that is of thicknesses over themselves (Levenberg-Marquardt).
 FormFit fit_form(CompactionForm form, const CompactionRows& rows);
 
-/// The fibre volumes nearest to those of the rows that nowhere fall (isotonic regression).
+/// The fibre volumes of the rows, or the nearest that nowhere fall.
 std::vector<double> rising_volumes(const CompactionRows& rows);
 /// Standard deviation of single rows, over them, from their second differences, in which a smooth
 /// curve has little where there are many rows; 0 of less than ten: not known.

@@ -3,7 +3,6 @@
 
 #include "base/format.hpp"
 #include "core/identify/compaction_forms.hpp"
-#include "core/model/usual_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>

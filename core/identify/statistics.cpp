@@ -54,4 +54,25 @@ Spread spread_of(const std::vector<double>& values) {
   return spread;
 }
 
+std::vector<double> nearest_rising(const std::vector<double>& values) {
+  struct Pool {
+    double sum;
+    std::size_t count;
+    double mean() const { return sum / static_cast<double>(count); }
+  };
+  std::vector<Pool> pools;
+  for (const double value : values) {
+    pools.push_back({value, 1});
+    while (pools.size() > 1 && pools[pools.size() - 2].mean() > pools.back().mean()) {
+      pools[pools.size() - 2].sum += pools.back().sum;
+      pools[pools.size() - 2].count += pools.back().count;
+      pools.pop_back();
+    }
+  }
+  std::vector<double> rising;
+  for (const Pool& pool : pools)
+    rising.insert(rising.end(), pool.count, pool.mean());
+  return rising;
+}
+
 } // namespace plyform

@@ -23,6 +23,9 @@ double chance_of_gain(double squares, double less, double freedom);
 /// Place of a minimum of f in [least, most], to 1e-6 of their distance.
 double minimum_of(const std::function<double(double)>& f, double least, double most);
 
+/// The nearest values that nowhere fall (pool adjacent violators), as many.
+std::vector<double> nearest_rising(const std::vector<double>& values);
+
 struct Spread {
   double mean = 0.0;
   double deviation = 0.0; ///< standard deviation of one

@@ -53,31 +53,16 @@ bool enough(const Curve& curve, const Place& start, const std::string& word,
   return true;
 }
 
-/// Replaces the tensions by the nearest non-decreasing ones (pool adjacent violators); returns the
-/// largest change.
+/// Replaces the tensions by the nearest non-decreasing ones, at least 0; returns the largest
+/// change.
 double make_rising(std::vector<double>& tension) {
-  struct Pool {
-    double sum;
-    std::size_t count;
-    double mean() const { return sum / static_cast<double>(count); }
-  };
-  std::vector<Pool> pools;
-  for (const double value : tension) {
-    pools.push_back({value, 1});
-    while (pools.size() > 1 && pools[pools.size() - 2].mean() > pools.back().mean()) {
-      pools[pools.size() - 2].sum += pools.back().sum;
-      pools[pools.size() - 2].count += pools.back().count;
-      pools.pop_back();
-    }
-  }
+  const std::vector<double> rising = nearest_rising(tension);
   double change = 0.0;
-  std::size_t i = 0;
-  for (const Pool& pool : pools)
-    for (std::size_t n = 0; n < pool.count; ++n, ++i) {
-      const double risen = std::max(pool.mean(), 0.0);
-      change = std::max(change, std::abs(risen - tension[i]));
-      tension[i] = risen;
-    }
+  for (std::size_t i = 0; i < tension.size(); ++i) {
+    const double risen = std::max(rising[i], 0.0);
+    change = std::max(change, std::abs(risen - tension[i]));
+    tension[i] = risen;
+  }
   return change;
 }
 

@@ -147,6 +147,11 @@ void check_simple(const Loop& loop, double near, const std::string& name) {
                      "once",
                      text(loop, k), text(loop, l), name));
   };
+  const bool simple = CGAL::is_simple_2(loop.begin(), loop.end());
+  const auto crossing = first_meeting({&loop}, near, [n](const Side& a, const Side& b) {
+    return b.k > a.k + 1 && !(a.k == 0 && b.k == n - 1);
+  });
+  if (simple && !crossing) return;
   std::size_t back = 0; // the first side after which the next goes back on it
   const auto goes_back = [&](std::size_t k) {
     const auto &p = loop[k], &q = loop[(k + 1) % n], &r = loop[(k + 2) % n];
@@ -154,11 +159,6 @@ void check_simple(const Loop& loop, double near, const std::string& name) {
   };
   while (back < n && !goes_back(back))
     ++back;
-  const bool simple = CGAL::is_simple_2(loop.begin(), loop.end());
-  const auto crossing = first_meeting({&loop}, near, [n](const Side& a, const Side& b) {
-    return b.k > a.k + 1 && !(a.k == 0 && b.k == n - 1);
-  });
-  if (simple && !crossing) return;
   if (crossing && crossing->first.k < back) report(crossing->first.k, crossing->second.k);
   if (back < n) report(back, (back + 1) % n);
   fail(name + " crosses or touches itself; list its points in order around it, each once");

@@ -95,8 +95,8 @@ private:
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> index;
 };
 
-/// The numbers from 0 to `most` of the points a + k step that lie in the box: first, and behind the
-/// last; none from less than 0 on.
+/// Of the points a + k step, k from 0 to `most`, those that lie in the box: the first k and the
+/// last; none if that is less.
 std::pair<double, double> within(const Eigen::AlignedBox2d& box, const Vec2& a, const Vec2& step,
                                  int most) {
   double first = 0.0, last = most;
@@ -133,7 +133,7 @@ void cover(const std::array<Vec2, 3>& x, double reach, const Eigen::AlignedBox2d
     if (!near.isEmpty())
       std::tie(first, last) =
           within(near, x[0] + (x[1] - x[0]) * (double(i) / n), (x[2] - x[1]) / n, most);
-    if (!(first <= last)) continue; // else both are of the row
+    if (!(first <= last)) continue; // only else both are from 0 to most
     for (int j = static_cast<int>(first); j <= static_cast<int>(last); ++j)
       places.add(x[0] + (x[1] - x[0]) * (double(i - j) / n) + (x[2] - x[0]) * (double(j) / n),
                  reach);

@@ -60,20 +60,7 @@ Body body_of(const Case& data, const Tool& tool) {
 
 /// The box of a flat ply; without an outline it is endless at its height.
 Box3 box_of_ply(const Case& data, const Ply& ply) {
-  Eigen::AlignedBox2d flat;
-  const auto known = static_cast<std::size_t>(ply.blank) < data.blanks.size();
-  const Outline outline =
-      known ? data.blanks[static_cast<std::size_t>(ply.blank)].outline : Outline{};
-  const Eigen::Rotation2Dd turn(ply.rotation);
-  for (const Vec2& x : outline.boundary)
-    flat.extend(ply.seed + turn * x);
-  for (const OutlineArc& arc : outline.arcs) {
-    if (arc.hole >= 0) continue;
-    const Vec2 round =
-        Vec2::Constant((outline.boundary[arc.side % outline.boundary.size()] - arc.centre).norm());
-    const Vec2 centre = ply.seed + turn * arc.centre;
-    flat.extend(centre - round), flat.extend(centre + round);
-  }
+  Eigen::AlignedBox2d flat = plan_of(data, ply);
   if (flat.isEmpty()) flat = {Vec2::Constant(-endless), Vec2::Constant(endless)};
   const double half = 0.5 * data.fabrics[static_cast<std::size_t>(ply.fabric)].thickness;
   return {Vec3(flat.min().x(), flat.min().y(), ply.z - half),
@@ -190,6 +177,24 @@ private:
 };
 
 } // namespace
+
+Eigen::AlignedBox2d plan_of(const Case& data, const Ply& ply) {
+  Eigen::AlignedBox2d flat;
+  const auto known = static_cast<std::size_t>(ply.blank) < data.blanks.size();
+  const Outline outline =
+      known ? data.blanks[static_cast<std::size_t>(ply.blank)].outline : Outline{};
+  const Eigen::Rotation2Dd turn(ply.rotation);
+  for (const Vec2& x : outline.boundary)
+    flat.extend(ply.seed + turn * x);
+  for (const OutlineArc& arc : outline.arcs) {
+    if (arc.hole >= 0) continue;
+    const Vec2 round =
+        Vec2::Constant((outline.boundary[arc.side % outline.boundary.size()] - arc.centre).norm());
+    const Vec2 centre = ply.seed + turn * arc.centre;
+    flat.extend(centre - round), flat.extend(centre + round);
+  }
+  return flat;
+}
 
 int ReachAhead::plies_in_stack(std::size_t ply) const {
   return static_cast<int>(std::count(stack.begin(), stack.end(), stack[ply]));

@@ -24,6 +24,9 @@ struct ReachAhead {
 /// along. A blank read from a mesh reaches everything at its height.
 ReachAhead reach_ahead(const Case& data);
 
+/// Where a flat ply lies, seen from above, mm; empty of a blank without an outline.
+Eigen::AlignedBox2d plan_of(const Case& data, const Ply& ply);
+
 /// The case without the plies that nothing moves, and the tools that reach none; all of it if
 /// nothing moves any ply.
 Case taking_part(const Case& data);

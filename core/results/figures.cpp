@@ -12,9 +12,9 @@ namespace plyform {
 namespace {
 
 /// Collects figures, of which some may not be known.
-class Figures {
+class FigureList {
 public:
-  explicit Figures(std::vector<FigureValue>& all) : all_(all) {}
+  explicit FigureList(std::vector<FigureValue>& all) : all_(all) {}
 
   void number(Figure figure, std::optional<double> value) {
     if (value) all_.push_back({std::move(figure), *value});
@@ -49,7 +49,7 @@ std::vector<double> of_all(const PlyFrame& ply, std::vector<double> FamilyFrame:
   return all;
 }
 
-void fields(const PlyFrame& ply, Figures& add) {
+void fields(const PlyFrame& ply, FigureList& add) {
   const std::vector<double> areas = areas_before(ply);
   const std::vector<double> strains = of_all(ply, &FamilyFrame::strain);
   add.number(compared("max_shear_deg", "largest shear", "deg", 1),
@@ -71,7 +71,7 @@ void fields(const PlyFrame& ply, Figures& add) {
   add.number(figure("max_temperature_C", "highest temperature", "°C", 1), largest(ply.temperature));
 }
 
-void pressed(const PressedYarns& yarns, Figures& add) {
+void pressed(const PressedYarns& yarns, FigureList& add) {
   add.number(compared("max_pressed_strain", "largest compression", "1", 2, "shortening of a yarn",
                       "largest compression"),
              yarns.largest);
@@ -85,7 +85,7 @@ void pressed(const PressedYarns& yarns, Figures& add) {
   add.place("excess_length_at_mm", "where that yarn is pressed most", yarns.excess_at);
 }
 
-void wrinkles(const Wrinkle& wrinkle, Figures& add) {
+void wrinkles(const Wrinkle& wrinkle, FigureList& add) {
   add.number(compared("wrinkle_height_mm", "highest wrinkle", "mm", 2, "from valley to crest"),
              wrinkle.height);
   add.number(figure("wrinkle_length_mm", "wavelength of the highest wrinkle", "mm", 0,
@@ -94,7 +94,7 @@ void wrinkles(const Wrinkle& wrinkle, Figures& add) {
   add.place("wrinkle_at_mm", "the highest wrinkle", wrinkle.at);
 }
 
-void bridging(const Bridging& found, Figures& add) {
+void bridging(const Bridging& found, FigureList& add) {
   add.number(compared("bridging_height_mm", "bridging height", "mm", 2, "over the tool"),
              found.height);
   add.number(compared("bridging_area_mm2", "bridging area", "mm²", 0), found.area);
@@ -108,7 +108,7 @@ void bridging(const Bridging& found, Figures& add) {
       found.mean_tension);
 }
 
-void fibre_volume(const FibreVolume& v, Figures& add) {
+void fibre_volume(const FibreVolume& v, FigureList& add) {
   add.number(figure("fibre_volume_mean", "mean fibre volume", "1", 1, "of the ply by itself"),
              v.mean);
   add.number(figure("fibre_volume_min", "least fibre volume", "1", 1, "of the ply by itself"),
@@ -119,7 +119,7 @@ void fibre_volume(const FibreVolume& v, Figures& add) {
   add.place("fibre_volume_max_at_mm", "the largest fibre volume", v.largest_at);
 }
 
-void mould(const MouldFill& fill, Figures& add) {
+void mould(const MouldFill& fill, FigureList& add) {
   add.number(figure("mould_area_mm2", "area in the mould", "mm²", 0, "of the unformed ply"),
              fill.area);
   add.number(figure("mould_gap_min_mm", "least gap of the mould", "mm", 3), fill.least_gap);
@@ -133,7 +133,7 @@ void mould(const MouldFill& fill, Figures& add) {
 }
 
 /// Values beside the limits of fabrics.
-void limits(const PlyFrame& ply, const PlyReport& report, Figures& add) {
+void limits(const PlyFrame& ply, const PlyReport& report, FigureList& add) {
   add.number(figure("locking_angle_deg", "locking angle", "deg", 1, "of the fabric"),
              report.locking_angle_deg);
   add.number(compared("area_share_beyond_locking_angle", "area beyond locking", "1", 1),
@@ -162,7 +162,7 @@ void limits(const PlyFrame& ply, const PlyReport& report, Figures& add) {
 
 std::vector<FigureValue> figures_of(const PlyFrame& ply, const PlyReport* report) {
   std::vector<FigureValue> all;
-  Figures add(all);
+  FigureList add(all);
   fields(ply, add);
   if (!report) return all;
   if (report->pressed) pressed(*report->pressed, add);

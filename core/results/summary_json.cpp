@@ -87,9 +87,11 @@ Json& at_path(Json& object, std::string_view name) {
   return (*at)[std::string(name)];
 }
 
-Json figures_object(const PlyFrame& ply, const PlyReport* report) {
+using Figures = std::vector<FigureValue>; // of a ply
+
+Json figures_object(const PlyFrame& ply, const Figures& figures) {
   Json object{{"name", ply.name}, {"angle_deg", rounded(ply.angle_deg)}};
-  for (const FigureValue& one : figures_of(ply, report)) {
+  for (const FigureValue& one : figures) {
     const double* number = std::get_if<double>(&one.value);
     at_path(object, one.figure.name) =
         number ? Json(rounded(*number)) : place(std::get<Vec3>(one.value));
@@ -108,12 +110,21 @@ Json report_keys(const PlyReport& report) {
 }
 
 /// `reports`: one per ply, or empty if only the fields are known.
-Json plies_list(const std::vector<PlyFrame>& plies, const std::vector<PlyReport>& reports) {
+std::vector<Figures> figures_of(const std::vector<PlyFrame>& plies,
+                                const std::vector<PlyReport>& reports) {
+  std::vector<Figures> all;
+  for (std::size_t i = 0; i < plies.size(); ++i)
+    all.push_back(figures_of(plies[i], reports.empty() ? nullptr : &reports.at(i)));
+  return all;
+}
+
+/// `figures`: those of each ply.
+Json plies_list(const std::vector<PlyFrame>& plies, const std::vector<Figures>& figures,
+                const std::vector<PlyReport>& reports) {
   Json list = Json::array();
   for (std::size_t i = 0; i < plies.size(); ++i) {
-    const PlyReport* report = reports.empty() ? nullptr : &reports.at(i);
-    list.push_back(figures_object(plies[i], report));
-    if (report) list.back().update(report_keys(*report));
+    list.push_back(figures_object(plies[i], figures[i]));
+    if (!reports.empty()) list.back().update(report_keys(reports[i]));
   }
   return list;
 }
@@ -127,10 +138,10 @@ Json description_object(const Figure& figure) {
 }
 
 /// What the figures are that the plies have, and those of the run.
-Json descriptions(const std::vector<PlyFrame>& plies, const std::vector<PlyReport>& reports) {
+Json descriptions(const std::vector<Figures>& figures) {
   Json of_plies = Json::object(), of_run = Json::object();
-  for (std::size_t i = 0; i < plies.size(); ++i)
-    for (const FigureValue& one : figures_of(plies[i], reports.empty() ? nullptr : &reports.at(i)))
+  for (const Figures& of_ply : figures)
+    for (const FigureValue& one : of_ply)
       if (std::holds_alternative<double>(one.value))
         of_plies[one.figure.name] = description_object(one.figure);
   for (const Figure& figure : figures_of_runs())
@@ -285,6 +296,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
     elements += ply.triangles.size();
     nodes += ply.x0.size();
   }
+  const std::vector<Figures> figures = figures_of(last.plies, summary.plies);
   Json all = {{"title", summary.title},
               {"version", summary.version},
               {"status", summary.status},
@@ -299,7 +311,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
               {"threads", summary.threads},
               {"elements", elements},
               {"nodes", nodes},
-              {"plies", plies_list(last.plies, summary.plies)},
+              {"plies", plies_list(last.plies, figures, summary.plies)},
               {"tools", tools_list(last.tools, summary.known_forces, summary.pushed)},
               {"boundaries", list_of(last.boundaries, boundary_object)},
               {"energy", energy_object(last.energy)},
@@ -315,7 +327,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
               {"doubts", summary.doubts},
               {"advice", advice_of(summary)},
               {"case", case_object(summary)},
-              {"figures", descriptions(last.plies, summary.plies)}};
+              {"figures", descriptions(figures)}};
   if (!summary.verification.figures.empty())
     all["verification"] = verification_object(summary.verification);
   // Names and messages may contain any bytes: those that are not UTF-8 become U+FFFD.

@@ -21,7 +21,6 @@ Array = NDArray[np.float64]
 AnyPath = Union[str, "os.PathLike[str]"]
 #: A CSV file, FILE:COLUMN, or columns by their headers: {"extension (mm)": ..., "load (N)": ...}.
 Curve = Union[AnyPath, Mapping[str, ArrayLike]]
-OTHERS = ("negative", "weft", "equibiaxial", "unloading")  # options that are curves
 
 
 @dataclass(frozen=True)
@@ -85,6 +84,12 @@ def _files(curves: Curve | Sequence[Curve], folder: Path) -> list[str]:
     return paths
 
 
+def _curve_options(test: str) -> list[str]:
+    """Options of a test that are curves."""
+    return [option["name"] for one in identify_tests() if one["name"] == test
+            for option in one["options"] if option["kind"] == "files"]
+
+
 def _columns(path: Path) -> dict[str, Any]:
     """Of the fit's file; a line `# weft` parts the rows of warp and weft."""
     names: list[str] = []
@@ -109,8 +114,8 @@ def identify(test: str, curves: Curve | Sequence[Curve], fabric: AnyPath | None 
 
     curves: one, or a list, for each specimen: files, or columns by headers with units. fabric: file
     with all but the law. output: where to write it; Identified.write does so later. options: those
-    of the command with _ in the place of -, and from_ for from (`plyform identify TEST --help`): length=300, width=100,
-    zero="fit", yes_doubtful=True, speeds=[1, 10], negative=[curve, curve].
+    of the command (`plyform identify TEST --help`) with _ in the place of -, and from_ for from:
+    length=300, width=100, zero="fit", yes_doubtful=True, speeds=[1, 10], negative=[curve, curve].
 
     Warns as the program does. Raises CaseError for what is wrong in curves, fabric or options'
     values, ValueError for an option that there is not or that is missing, OSError for files that
@@ -119,8 +124,10 @@ def identify(test: str, curves: Curve | Sequence[Curve], fabric: AnyPath | None 
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         file = Path(output) if output is not None else folder / "law.toml"
-        given = {key.rstrip("_").replace("_", "-"): _files(value, folder) if key in OTHERS else _words(value)
-                 for key, value in options.items() if value is not None}
+        curve_options = _curve_options(test)
+        named = {key.rstrip("_").replace("_", "-"): value for key, value in options.items()}
+        given = {key: _files(value, folder) if key in curve_options else _words(value)
+                 for key, value in named.items() if value is not None}
         fit, report = given.get("fit", [str(folder / "fit.csv")]), [str(folder / "report.json")]
         whole = {**given, "output": [str(file)], "fit": fit}
         if fabric is not None:

@@ -5,6 +5,7 @@
 #include "core/input/parts/case_parts.hpp"
 #include "core/mesh/size_field.hpp"
 #include "core/mesh/tool_zone.hpp"
+#include "core/model/reach_ahead.hpp"
 
 #include <algorithm>
 
@@ -88,21 +89,10 @@ MeshZone read_zone(const TableView& section, const Vec2& origin, const BlankSpec
 }
 
 /// Where the plies of a blank lie, seen from above; empty if it is not known.
-Eigen::AlignedBox2d plan_of(const Case& built, std::size_t blank) {
+Eigen::AlignedBox2d plan_of_blank(const Case& built, std::size_t blank) {
   Eigen::AlignedBox2d box;
-  if (!has_outline(built.blanks[blank])) return box;
-  const Outline& outline = built.blanks[blank].outline;
-  std::vector<Vec2> points = outline.boundary;
-  for (const OutlineArc& arc : outline.arcs)
-    if (arc.hole < 0) {
-      const double radius = (outline.boundary[arc.side] - arc.centre).norm();
-      for (const Vec2& corner : {Vec2(1, 1), Vec2(1, -1), Vec2(-1, 1), Vec2(-1, -1)})
-        points.push_back(arc.centre + radius * corner);
-    }
   for (const Ply& ply : built.plies)
-    if (at(ply.blank) == blank)
-      for (const Vec2& point : points)
-        box.extend(ply.seed + Eigen::Rotation2Dd(ply.rotation) * point);
+    if (at(ply.blank) == blank) box.extend(plan_of(built, ply));
   return box;
 }
 
@@ -121,7 +111,7 @@ void place_zone(const TableView& section, Case& built, std::size_t blank, MeshZo
     return;
   }
   zone.tool = static_cast<int>(tool - built.tools.begin());
-  ToolZoneRule rule{{}, {}, zone.element_size, plan_of(built, blank)};
+  ToolZoneRule rule{{}, {}, zone.element_size, plan_of_blank(built, blank)};
   if (given(section, "below_radius")) rule.below_radius = number(section, "below_radius");
   if (given(section, "distance")) rule.distance = number(section, "distance");
   zone.places = tight_places(*tool, rule);

@@ -53,8 +53,8 @@ def shown(one: Described, value: float, band: float | None = None) -> Figure:
 
 
 def key_figures(summary: dict) -> list[Figure]:
-    labels = [kinds[name].label for name in KEY_FIGURES for kinds in (described(summary, "plies"),
-              described(summary, "run")) if name in kinds]
+    kinds = described(summary, "plies") | described(summary, "run")
+    labels = [kinds[name].label for name in KEY_FIGURES if name in kinds]
     of_run = {one.label: one for one in figures_of(summary)}
     found = [of_run[label] for label in labels if label in of_run]
     if force := driven_force(summary):

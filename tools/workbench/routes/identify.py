@@ -203,7 +203,8 @@ def found(studio: Studio, record: dict) -> dict:
         rows = project.inside(record["about"]["output"].removesuffix(".toml") + "_fit.csv")
         if told["report"] and told["report"].get("status") == "done" and is_file(rows):
             told["fit"] = columns_of(*study_files.csv_rows(rows))
-            if not test_of(studio, record["about"]["test"])["fabric"]:
+            test = test_of(studio, record["about"]["test"])
+            if test and not test["fabric"]:
                 told["text"] = read_bytes(project.inside(record["about"]["output"]), MOST_REPORT).decode("utf-8")
     except (Trouble, OSError, ValueError, KeyError) as problem:
         told["trouble"] = one_line(problem)
