@@ -18,18 +18,18 @@ arguments=("$cases/picture_frame" --set blanks.square.element_size=50 --set solv
   --set boundary.0.stroke=5 --set solver.outputs=2 --set solver.checkpoint_interval=0 --threads 1)
 states=3
 
-# numbers: of the calls in `log` that are to fail.
-numbers() {
+# chosen: of the calls in `log` those that are to fail, a line each.
+chosen() {
   if [ "$which" = all ]; then
-    cut -d ' ' -f 1 log
+    cat log
   else
-    awk '{ kind = $2 " " $3; gsub(/[0-9]/, "", kind) } !(kind in seen) { print $1; seen[kind] }' log
+    awk '{ kind = $2 " " $3; gsub(/[0-9]/, "", kind) } !(kind in seen) { print; seen[kind] }' log
   fi
 }
 
 # The call that failed: none if progress.json was written less often than when calls were counted.
 failed_call() {
-  grep -m 1 FAILED failed || echo "$number, which did not come"
+  grep -m 1 FAILED failed || echo "$call, which did not come"
 }
 
 # one_message CODE FOLDER: what a program that failed says.
@@ -70,17 +70,18 @@ intact() {
 # each NAME ERROR SUFFIX: fails one call after the other of `run` in the folder `again`, which
 # begins as a copy of the folder NAME, if there is one.
 each() {
-  local number code before=0 written
+  local call calls code before=0 written
   shopt -s nullglob
   [ ! -d "$1" ] || before=$(set -- "$1"/states/0*.h5 && echo $#)
   rm -rf again && { [ ! -d "$1" ] || cp -r "$1" again; }
-  "$fail_call" again log 0 EIO "$program" run "${arguments[@]}" --resume -o again >/dev/null 2>&1
+  "$fail_call" again log none EIO "$program" run "${arguments[@]}" --resume -o again >/dev/null 2>&1
   same again
-  for number in $(numbers); do
+  mapfile -t calls < <(chosen)
+  for call in "${calls[@]}"; do
     failed_before=$failures
     rm -rf again && { [ ! -d "$1" ] || cp -r "$1" again; }
     code=0
-    "$fail_call" again failed "$number$3" "$2" "$program" run "${arguments[@]}" --resume -o again \
+    "$fail_call" again failed "$call$3" "$2" "$program" run "${arguments[@]}" --resume -o again \
       >/dev/null 2>message || code=$?
     what="run, $2$3 at call $(failed_call)"
     count=$((count + 1))
@@ -107,7 +108,7 @@ count=0
 "$program" export whole --frame all --format csv >/dev/null
 mv whole/export reference
 code=0
-"$fail_call" again log 0 EIO "$program" run "${arguments[@]}" -o again >/dev/null 2>message || code=$?
+"$fail_call" again log none EIO "$program" run "${arguments[@]}" -o again >/dev/null 2>message || code=$?
 if [ "$code" = 77 ]; then
   cat message
   exit 77
@@ -117,9 +118,8 @@ reason='No space left on device'
 each nothing ENOSPC +
 [ "$which" = some ] || each nothing ENOSPC ''
 # one that was stopped by a full disk between two states
-half=$(grep -m 1 'rename states/000002.h5' log | cut -d ' ' -f 1)
 rm -rf again
-"$fail_call" again log "$half+" ENOSPC "$program" run "${arguments[@]}" -o again >message 2>&1 || true
+"$fail_call" again log "1 rename states/000002.h5+" ENOSPC "$program" run "${arguments[@]}" -o again >message 2>&1 || true
 mv again halted
 [ "$which" = some ] || each halted ENOSPC +
 reason='Input/output error'
@@ -133,11 +133,12 @@ for error in ENOSPC+ EIO; do
   [ "$error" = EIO ] || reason='No space left on device'
   [ "$error" != EIO ] || reason='Input/output error'
   rm -rf again && cp -r whole again
-  "$fail_call" again log 0 EIO "$program" export again >/dev/null
-  for number in $(numbers); do
+  "$fail_call" again log none EIO "$program" export again >/dev/null
+  mapfile -t calls < <(chosen)
+  for call in "${calls[@]}"; do
     rm -rf again/export
     code=0
-    "$fail_call" again failed "$number${error//[A-Z]/}" "${error%+}" "$program" export again \
+    "$fail_call" again failed "$call${error//[A-Z]/}" "${error%+}" "$program" export again \
       >/dev/null 2>message || code=$?
     what="export, $error at call $(failed_call)"
     count=$((count + 1))
@@ -160,7 +161,7 @@ for command in "run new" "run again" "resume again" "resume halted" "export agai
   rm -rf again before && cp -r whole again
   [ ! -d "$at" ] || cp -r "$at" before
   code=0
-  "$fail_call" "$at" failed 1+ EROFS "$program" "${words[@]}" >/dev/null 2>message || code=$?
+  "$fail_call" "$at" failed every+ EROFS "$program" "${words[@]}" >/dev/null 2>message || code=$?
   what="$command into $at, which is read only"
   count=$((count + 1))
   if [ "$command $at" = "resume again" ]; then # nothing is left to do

@@ -26,10 +26,10 @@ def run(package, source, folder):
         sys.exit(4)
 
 
-def called(fail_call, package, source, folder, number):
-    """Exit code and output of a run whose call `number` fails, and the calls that it made."""
+def called(fail_call, package, source, folder, call):
+    """Exit code and output of a run whose `call` fails, and the calls that it made."""
     words = [sys.executable, "-W", "ignore", __file__, "run", package, source, folder / "run"]
-    done = subprocess.run([fail_call, folder / "run", folder / "log", str(number), "EIO", *words],
+    done = subprocess.run([fail_call, folder / "run", folder / "log", call, "EIO", *words],
                           capture_output=True, text=True)
     return done, (folder / "log").read_text().splitlines()
 
@@ -40,7 +40,7 @@ if sys.argv[1] == "run":
 package, fail_call, source = sys.argv[1:]
 with tempfile.TemporaryDirectory() as name:
     (Path(name) / "whole").mkdir()
-    done, calls = called(fail_call, package, source, Path(name) / "whole", 0)
+    done, calls = called(fail_call, package, source, Path(name) / "whole", "none")
     if done.returncode == 77:
         print(done.stderr)
         sys.exit(77)
@@ -48,14 +48,14 @@ with tempfile.TemporaryDirectory() as name:
     # of the first state and of the last file, each kind of call once
     kinds = {}
     for line in calls:
-        number, call, path = line.split()
+        _, call, path = line.split()
         if path.startswith("states/000000") or path.startswith("results.h5"):
-            kinds[call, path] = number
+            kinds[call, path] = line
     assert len(kinds) > 10, kinds
-    for (call, path), number in kinds.items():
-        folder = Path(name) / number
+    for at, ((call, path), line) in enumerate(kinds.items()):
+        folder = Path(name) / str(at)
         folder.mkdir()
-        done, _ = called(fail_call, package, source, folder, number)
+        done, _ = called(fail_call, package, source, folder, line)
         what = f"{call} {path}: exit code {done.returncode}, {done.stdout} {done.stderr}"
         if done.returncode != 0:  # a file that is not there need not be removed
             assert done.returncode == 4 and "Input/output error" in done.stdout, what

@@ -3,12 +3,15 @@
 // all that take space from it on) answered with an error instead of done, as by a full or failing
 // disk. The kernel asks this program about each call (seccomp_unotify(2), Linux 5.5 or newer):
 // nothing that the C library or HDF5 does passes by.
-//   fail_call FOLDER LOG NUMBER[+] ERROR PROGRAM [ARGUMENT]...
-//     NUMBER: from 1; 0 fails none; with + all that take space fail from there on (EROFS: all)
+//   fail_call FOLDER LOG CALL[+] ERROR PROGRAM [ARGUMENT]...
+//     CALL: "NUMBER NAME PATH", a line of LOG; none; every; with + all that take space fail from
+//     there
+//       on (EROFS: all)
 //     ERROR: ENOSPC, EIO, EROFS
-// LOG gets a line a call: its number, its name, the path, and FAILED where it was. Answers what the
-// program does, 128 + the signal that ended it, 125 if it cannot be run, 77 if the kernel cannot do
-// this.
+// LOG gets a line a call: its number among those of its name on its path (that of all calls would
+// depend on how often the clock had a program tell its progress), its name, the path, and FAILED
+// where it was. Answers what the program does, 128 + the signal that ended it, 125 if it cannot be
+// run, 77 if the kernel cannot do this.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -21,6 +24,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <map>
+#include <poll.h>
 #include <string>
 #include <sys/ioctl.h>
 #include <sys/prctl.h>
@@ -193,21 +197,30 @@ std::string path_of(const Call& call, const seccomp_notif& asked) {
 struct Arguments {
   std::string folder;
   const char* log;
-  long number;
+  std::string call; ///< as a line of the log
   bool onwards;
   int error;
 };
+
+/// Whether a call waits for an answer; false when no process is left that could make one.
+bool is_asked(int listener) {
+  pollfd asks{listener, POLLIN, 0};
+  while (poll(&asks, 1, -1) < 0 && errno == EINTR)
+    ;
+  return (asks.revents & POLLIN) != 0;
+}
 
 /// Answers the kernel until no process is left that it could ask about.
 void answer(int listener, const Arguments& to) {
   std::FILE* log = std::fopen(to.log, "w");
   if (!log) end(cannot_run, to.log);
-  long count = 0;
-  for (;;) {
+  std::map<std::string, long> counts;
+  bool reached = false;
+  while (is_asked(listener)) {
     seccomp_notif asked{};
     if (ioctl(listener, SECCOMP_IOCTL_NOTIF_RECV, &asked) != 0) {
-      if (errno == EINTR) continue;
-      break; // ENOENT: all have ended
+      if (errno == EINTR || errno == ENOENT) continue; // a signal was faster: it will ask again
+      break;
     }
     const Call& call = calls().at(asked.data.nr);
     const std::string path = path_of(call, asked);
@@ -215,16 +228,18 @@ void answer(int listener, const Arguments& to) {
     reply.id = asked.id;
     reply.flags = SECCOMP_USER_NOTIF_FLAG_CONTINUE;
     if (path == to.folder || path.starts_with(to.folder + "/")) {
-      ++count;
-      const bool later = to.onwards && (call.takes_space || to.error == EROFS);
-      const bool fails = to.number > 0 && (count == to.number || (later && count > to.number));
-      if (fails) {
+      const std::string what =
+          std::string(call.name) + " " +
+          (path.size() > to.folder.size() ? path.substr(to.folder.size() + 1) : ".");
+      const std::string line = std::to_string(++counts[what]) + " " + what;
+      const bool here = line == to.call || (!reached && to.call == "every");
+      const bool later = reached && to.onwards && (call.takes_space || to.error == EROFS);
+      reached = reached || here;
+      if (here || later) {
         reply.flags = 0;
         reply.error = -to.error;
       }
-      std::fprintf(log, "%ld %s %s%s\n", count, call.name,
-                   path.size() > to.folder.size() ? path.c_str() + to.folder.size() + 1 : ".",
-                   fails ? " FAILED" : "");
+      std::fprintf(log, "%s%s\n", line.c_str(), here || later ? " FAILED" : "");
     }
     ioctl(listener, SECCOMP_IOCTL_NOTIF_SEND, &reply); // fails if the process was killed meanwhile
   }
@@ -235,13 +250,15 @@ void answer(int listener, const Arguments& to) {
 
 int main(int argc, char** argv) {
   if (argc < 6) {
-    std::fputs("fail_call FOLDER LOG NUMBER[+] ERROR PROGRAM [ARGUMENT]...\n", stderr);
+    std::fputs("fail_call FOLDER LOG CALL[+] ERROR PROGRAM [ARGUMENT]...\n", stderr);
     return cannot_run;
   }
   const std::map<std::string, int> errors{{"ENOSPC", ENOSPC}, {"EIO", EIO}, {"EROFS", EROFS}};
-  const std::string number = argv[3];
-  const Arguments arguments{fs::absolute(argv[1]).lexically_normal().string(), argv[2],
-                            std::stol(number), number.ends_with("+"), errors.at(argv[4])};
+  std::string call = argv[3];
+  const bool onwards = call.ends_with("+");
+  if (onwards) call.pop_back();
+  const Arguments arguments{fs::absolute(argv[1]).lexically_normal().string(), argv[2], call,
+                            onwards, errors.at(argv[4])};
   int sockets[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) end(cannot_run, "sockets");
   const pid_t child = fork();
