@@ -63,6 +63,7 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
     snapshot.tool_loads[t] = s.tools[t];
   }
   snapshot.boundaries = s.boundaries;
+  snapshot.elements = s;
   snapshot.progress = s;
   snapshot.energy = energy;
   snapshot.tool_penetration = snapshot.ply_penetration = 0.0;
@@ -82,6 +83,7 @@ void restore(Scene& s, const Snapshot& snapshot) {
     static_cast<ToolLoad&>(s.tools[t]) = snapshot.tool_loads[t];
   }
   s.boundaries = snapshot.boundaries;
+  static_cast<ElementState&>(s) = snapshot.elements;
   static_cast<SceneProgress&>(s) = snapshot.progress;
   for (std::vector<double>* lost : {&s.group_lost, &s.group_torn}) // of a step that was not taken
     std::fill(lost->begin(), lost->end(), 0.0);

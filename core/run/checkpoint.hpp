@@ -22,6 +22,7 @@ struct Snapshot {
   std::vector<ToolMotion> tool_motions;
   std::vector<ToolLoad> tool_loads;
   std::vector<BoundaryState> boundaries;
+  ElementState elements;
   SceneProgress progress;
   Energies energy;
   double tool_penetration = 0.0, ply_penetration = 0.0; ///< mm, the deepest
@@ -29,12 +30,13 @@ struct Snapshot {
 
 template <class F>
 void each_member(Snapshot& good, F&& f) {
-  auto& [plies, tool_motions, tool_loads, boundaries, progress, energy, tool_penetration,
+  auto& [plies, tool_motions, tool_loads, boundaries, elements, progress, energy, tool_penetration,
          ply_penetration] = good;
   f("plies", plies);
   f("tool_motions", tool_motions);
   f("tool_loads", tool_loads);
   f("boundaries", boundaries);
+  f("elements", elements);
   f("progress", progress);
   f("energy", energy);
   f("tool_penetration", tool_penetration);

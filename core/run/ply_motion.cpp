@@ -24,7 +24,7 @@ double kinetic_of(const PlyBody& ply) {
 
 /// Elastic energy without contact, N mm.
 double elastic_of(const Scene& s, std::size_t ply) {
-  return BendingForces::elastic(s, ply) + ElementForces::elastic(s, ply);
+  return BendingForces::elastic(s, ply) + s.ElementForces::elastic(s, ply);
 }
 
 std::vector<std::string> doubts_of_flight(const Scene& s, const Frame& last) {
@@ -117,8 +117,7 @@ std::vector<PlyMotion> motion_of_plies(const Scene& s) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     plies.push_back({kinetic_of(s.plies[p]), elastic_of(s, p)});
   for (std::size_t b = 0; b < s.group_blocks.size(); ++b)
-    plies[static_cast<std::size_t>(s.group_blocks[b].ply)].deformation +=
-        ElementForces::lost(s, b) + ElementForces::torn(s, b);
+    plies[static_cast<std::size_t>(s.group_blocks[b].ply)].deformation += s.lost(b) + s.torn(b);
   return plies;
 }
 

@@ -24,7 +24,7 @@ constexpr double long_strain = 0.005; // softened yarns; woven ones break at 0.0
 
 std::vector<PairSeen> all_seen(const Scene& s) {
   std::vector<PairSeen> seen;
-  each_kind<SumsOfForces>([&]<class K>() { K::add_seen(s, seen); });
+  each_kind<InOrder::summed>(s, [&](const auto& kind) { kind.add_seen(s, seen); });
   return seen;
 }
 
@@ -61,7 +61,7 @@ Times times_of(const Scene& s) {
     t.motion += b.seconds;
   for (const PlyBody& ply : s.plies)
     t.search += ply.search_seconds;
-  each_kind<SumsOfForces>([&]<class K>() { K::add_times(s, t); });
+  each_kind<InOrder::summed>(s, [&](const auto& kind) { kind.add_times(t); });
   return t;
 }
 

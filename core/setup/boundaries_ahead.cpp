@@ -92,7 +92,7 @@ void describe_stiff(const Scene& s, const Attachment& attached, std::vector<std:
   ContactRows rows;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     rows.emplace_back(s.plies[p].x.size());
-    add_attachment_stiffness(s, p, rows.back());
+    add_attachment_stiffness(s, s, p, rows.back());
   }
   double ratio = 0.0; // of omega^2
   for (const AttachedNode& node : attached.nodes) {

@@ -246,7 +246,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgr
     lines.push_back(std::move(line));
   for (std::string& line : friction_ahead(data))
     lines.push_back(std::move(line));
-  each_kind([&]<class K>() { K::describe(s, lines); });
+  each_kind(s, [&](const auto& kind) { kind.describe(s, lines); });
   const StepBound bound = stable_step(s, contact_rows(s, pool));
   outlook.stable_step = bound.dt;
   outlook.step = s.next_dt;

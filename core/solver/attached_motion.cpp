@@ -2,43 +2,45 @@
 #include "core/solver/attached_motion.hpp"
 
 #include "core/model/motion.hpp"
+#include "core/solver/force_kinds.hpp"
 #include "core/solver/nodal_forces.hpp"
 
 namespace plyform {
 namespace {
 
-const Boundary& boundary_of(const Scene& s, const Attachment& attached) {
-  return s.data.boundaries[attached.boundary];
+const Boundary& boundary_of(const Layup& layup, const Attachment& attached) {
+  return layup.data.boundaries[attached.boundary];
 }
 
 /// The spring's force on its nodes (F), added up, N.
-Vec3 pull_of(const Scene& s, const Attachment& attached, BoundaryState& state) {
-  const auto& spring = boundary_of(s, attached).as<TensionSpring>();
+Vec3 pull_of(const Layup& layup, const std::vector<ToolState>& tools, const Attachment& attached,
+             BoundaryState& state) {
+  const auto& spring = boundary_of(layup, attached).as<TensionSpring>();
   Vec3 way = spring.anchor;
-  if (spring.carrier >= 0) way += s.tools[spring.carrier].body.displacement;
+  if (spring.carrier >= 0) way += tools[spring.carrier].body.displacement;
   for (const AttachedNode& node : attached.nodes)
-    way -= node.share * s.plies[node.ply].x[node.node];
+    way -= node.share * layup.plies[node.ply].x[node.node];
   const double length = way.norm();
   state.displacement = length - attached.length;
   state.load =
-      spring_tension(spring, attached, length, force_share(s.time, s.data.solver.duration));
+      spring_tension(spring, attached, length, force_share(layup.time, layup.data.solver.duration));
   constexpr double no_direction = 1e-9; // mm
   if (length < no_direction) return Vec3::Zero();
   return state.load / length * way;
 }
 
 /// N, P of (G).
-double pull_along(const Scene& s, const Boundary& gripper, double gone) {
-  const double now = motion_at(gripper, s.time, s.data.solver.duration);
+double pull_along(const Layup& layup, const Boundary& gripper, double gone) {
+  const double now = motion_at(gripper, layup.time, layup.data.solver.duration);
   const double stiffness = gripper.as<Gripper>().stiffness;
   return stiffness > 0.0 ? stiffness * (now - gone) : now;
 }
 
 /// t, of a gripper and its nodes.
-double whole_mass(const Scene& s, const Attachment& clamp) {
-  double mass = boundary_of(s, clamp).as<Gripper>().mass;
+double whole_mass(const Layup& layup, const Attachment& clamp) {
+  double mass = boundary_of(layup, clamp).as<Gripper>().mass;
   for (const AttachedNode& node : clamp.nodes)
-    mass += s.plies[node.ply].membrane.node_mass[node.node];
+    mass += layup.plies[node.ply].membrane.node_mass[node.node];
   return mass;
 }
 
@@ -49,8 +51,8 @@ struct Stiff {
   std::vector<double> share; ///< sum 1
 };
 
-Stiff stiffness_of(const Scene& s, const Attachment& attached) {
-  const Boundary& b = boundary_of(s, attached);
+Stiff stiffness_of(const Layup& layup, const Attachment& attached) {
+  const Boundary& b = boundary_of(layup, attached);
   if (b.is<TensionSpring>()) {
     Stiff of{b.as<TensionSpring>().stiffness, {}};
     for (const AttachedNode& node : attached.nodes)
@@ -58,25 +60,25 @@ Stiff stiffness_of(const Scene& s, const Attachment& attached) {
     return of;
   }
   Stiff of{b.as<Gripper>().stiffness, {}};
-  const double whole = whole_mass(s, attached), nodes = whole - b.as<Gripper>().mass;
+  const double whole = whole_mass(layup, attached), nodes = whole - b.as<Gripper>().mass;
   for (const AttachedNode& node : attached.nodes)
-    of.share.push_back(s.plies[node.ply].membrane.node_mass[node.node] / nodes);
+    of.share.push_back(layup.plies[node.ply].membrane.node_mass[node.node] / nodes);
   of.stiffness *= nodes / whole; // so that omega^2 is k over the whole mass
   return of;
 }
 
 } // namespace
 
-void pull_springs(Scene& s) {
-  for (PlyBody& ply : s.plies)
+void pull_springs(BoundaryForces& of, Layup& layup, const std::vector<ToolState>& tools) {
+  for (PlyBody& ply : layup.plies)
     std::fill(ply.pull.begin(), ply.pull.end(), Vec3::Zero());
-  for (const Attachment& attached : s.attachments) {
-    if (!boundary_of(s, attached).is<TensionSpring>()) continue;
-    BoundaryState& state = s.boundaries[attached.boundary];
-    const Vec3 force = pull_of(s, attached, state);
+  for (const Attachment& attached : of.attachments) {
+    if (!boundary_of(layup, attached).is<TensionSpring>()) continue;
+    BoundaryState& state = of.boundaries[attached.boundary];
+    const Vec3 force = pull_of(layup, tools, attached, state);
     Vec3 motion = Vec3::Zero();
     for (const AttachedNode& node : attached.nodes) {
-      PlyBody& ply = s.plies[node.ply];
+      PlyBody& ply = layup.plies[node.ply];
       ply.pull[node.node] += node.share * force;
       motion += node.share * ply.motion[node.node];
     }
@@ -85,21 +87,20 @@ void pull_springs(Scene& s) {
   }
 }
 
-void move_gripper(Scene& s, const Attachment& clamp) {
-  const auto& gripper = boundary_of(s, clamp).as<Gripper>();
-  BoundaryState& state = s.boundaries[clamp.boundary];
-  const MassLoads loads = mass_loads(s);
+void move_gripper(Layup& layup, const Attachment& clamp, BoundaryState& state) {
+  const auto& gripper = boundary_of(layup, clamp).as<Gripper>();
+  const MassLoads loads = mass_loads(layup.data);
   // All nodes have gone the same way at the same speed: the first one stands for the gripper.
   const AttachedNode& first = clamp.nodes.front();
-  const PlyBody& of_first = s.plies[first.ply];
+  const PlyBody& of_first = layup.plies[first.ply];
   const Vec3 gone = of_first.x[first.node] - of_first.x0[first.node];
   const Vec3 velocity = of_first.velocity[first.node], motion = of_first.motion[first.node];
   state.displacement = gone.dot(gripper.direction);
-  Vec3 sum = pull_along(s, boundary_of(s, clamp), state.displacement) * gripper.direction;
+  Vec3 sum = pull_along(layup, boundary_of(layup, clamp), state.displacement) * gripper.direction;
   double mass = gripper.mass;
   std::vector<Vec3> free;
   for (const AttachedNode& node : clamp.nodes) {
-    PlyBody& ply = s.plies[node.ply];
+    PlyBody& ply = layup.plies[node.ply];
     ply.reaction[node.node].setZero();
     free.push_back(acceleration(ply, node.node, loads));
     sum += ply.mass[node.node] * free.back();
@@ -108,13 +109,13 @@ void move_gripper(Scene& s, const Attachment& clamp) {
   Vec3 acceleration = sum / mass;
   for (const Vec3& axis : clamp.held)
     acceleration -= axis.dot(acceleration) * axis;
-  const double span = 0.5 * (s.dt + s.next_dt);
-  const Vec3 goes = gone + (velocity + span * acceleration) * s.next_dt;
+  const double span = 0.5 * (layup.dt + layup.next_dt);
+  const Vec3 goes = gone + (velocity + span * acceleration) * layup.next_dt;
   Vec3 force = Vec3::Zero();
   for (std::size_t j = 0; j < clamp.nodes.size(); ++j) {
     const auto n = static_cast<std::size_t>(clamp.nodes[j].node);
-    PlyBody& ply = s.plies[clamp.nodes[j].ply];
-    const Vec3 wanted = ((ply.x0[n] + goes - ply.x[n]) / s.next_dt - ply.velocity[n]) / span;
+    PlyBody& ply = layup.plies[clamp.nodes[j].ply];
+    const Vec3 wanted = ((ply.x0[n] + goes - ply.x[n]) / layup.next_dt - ply.velocity[n]) / span;
     ply.reaction[n] = ply.mass[n] * (wanted - free[j]);
     force += ply.reaction[n];
   }
@@ -123,20 +124,22 @@ void move_gripper(Scene& s, const Attachment& clamp) {
   state.load = force.dot(gripper.direction);
 }
 
-void add_attachment_stiffness(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
-  for (const Attachment& attached : s.attachments) {
-    const Stiff of = stiffness_of(s, attached);
+void add_attachment_stiffness(const BoundaryForces& forces, const Layup& layup, std::size_t ply,
+                              std::span<ContactRow> rows) {
+  for (const Attachment& attached : forces.attachments) {
+    const Stiff of = stiffness_of(layup, attached);
     for (std::size_t j = 0; j < of.share.size(); ++j)
       if (at(attached.nodes[j].ply) == ply)
         rows[at(attached.nodes[j].node)].stiffness += of.stiffness * of.share[j];
   }
 }
 
-void add_attachment_forces(const Scene& s, double factor, const std::vector<std::vector<Vec3>>& y,
+void add_attachment_forces(const BoundaryForces& forces, const Layup& layup, double factor,
+                           const std::vector<std::vector<Vec3>>& y,
                            std::vector<std::vector<Vec3>>& f) {
-  for (const Attachment& attached : s.attachments) {
-    const Boundary& b = boundary_of(s, attached);
-    const Stiff of = stiffness_of(s, attached);
+  for (const Attachment& attached : forces.attachments) {
+    const Boundary& b = boundary_of(layup, attached);
+    const Stiff of = stiffness_of(layup, attached);
     Vec3 mean = Vec3::Zero();
     for (std::size_t j = 0; j < of.share.size(); ++j)
       mean += of.share[j] * y[attached.nodes[j].ply][attached.nodes[j].node];

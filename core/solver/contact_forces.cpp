@@ -4,7 +4,7 @@
 #include "base/stopwatch.hpp"
 #include "core/solver/attached_motion.hpp"
 #include "core/solver/displacements.hpp"
-#include "core/solver/force_kinds.hpp"
+#include "core/solver/scene.hpp"
 #include "core/solver/step_faults.hpp"
 
 #include <algorithm>
@@ -32,163 +32,167 @@ int deepest_node(const Points& points) {
       ->node;
 }
 
-const std::string& name_of(const Scene& s, int ply) {
-  return s.plies[at(ply)].name;
+const std::string& name_of(const Layup& layup, int ply) {
+  return layup.plies[at(ply)].name;
 }
 
 } // namespace
 
-double ToolContacts::place(const Scene& s, int task) {
-  return static_cast<double>(task) / static_cast<double>(s.tools.size());
+double ToolContacts::place(const Layup&, int task) const {
+  return static_cast<double>(task) / static_cast<double>(tools.size());
 }
 
-void ToolContacts::run(Scene& s, int task) {
-  ToolState& t = s.tools[at(task)];
+void ToolContacts::run(Layup& layup, int task) {
+  ToolState& t = tools[at(task)];
   const Stopwatch watch(t.seconds);
   const Vec3 before = t.force;
-  for (std::size_t p = 0; p < s.plies.size(); ++p)
-    t.ply_paths[p] = path_length_ahead(s, t) + s.plies[p].path_length;
-  t.force = tool_ply_forces(t.body, t.contacts, s.ply_states, t.ply_paths, s.dt);
+  for (std::size_t p = 0; p < layup.plies.size(); ++p)
+    t.ply_paths[p] = path_length_ahead(t, layup.dt) + layup.plies[p].path_length;
+  t.force = tool_ply_forces(t.body, t.contacts, layup.ply_states, t.ply_paths, layup.dt);
   t.work -= 0.5 * (before + t.force).dot(t.body.motion);
 }
 
-void ToolContacts::list_arrays(Scene& s) {
-  for (const ToolState& t : s.tools)
-    for (std::size_t p = 0; p < s.plies.size(); ++p)
+void ToolContacts::list_arrays(Layup& layup) {
+  for (const ToolState& t : tools)
+    for (std::size_t p = 0; p < layup.plies.size(); ++p)
       if (!t.contacts[p].list.active.empty())
-        s.plies[p].nodal_forces.push_back(&t.contacts[p].force);
+        layup.plies[p].nodal_forces.push_back(&t.contacts[p].force);
 }
 
-void ToolContacts::add_energies(const Scene& s, ThreadPool&, Energies& e) {
-  for (const ToolState& t : s.tools) {
+void ToolContacts::add_energies(const Layup&, ThreadPool&, Energies& e) const {
+  for (const ToolState& t : tools) {
     for (const ToolPlyContact& c : t.contacts)
       add_sums(c.law, c.sums, e);
     e.external += t.work;
   }
 }
 
-void ToolContacts::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
-  for (const ToolState& tool : s.tools)
-    add_tool_ply_stiffness(tool.contacts[ply], s.plies[ply].state(), s.bound_margin, rows);
+void ToolContacts::add_rows(const Layup& layup, std::size_t ply, std::span<ContactRow> rows) const {
+  for (const ToolState& tool : tools)
+    add_tool_ply_stiffness(tool.contacts[ply], layup.plies[ply].state(), layup.bound_margin, rows);
 }
 
-void ToolContacts::add_times(const Scene& s, Times& times) {
-  for (const ToolState& tool : s.tools) {
+void ToolContacts::add_times(Times& times) const {
+  for (const ToolState& tool : tools) {
     times.contact += tool.seconds;
     for (const ToolPlyContact& c : tool.contacts)
       times.search += c.time.search;
   }
 }
 
-void ToolContacts::add_seen(const Scene& s, std::vector<PairSeen>& seen) {
-  for (const ToolState& t : s.tools)
-    for (std::size_t p = 0; p < s.plies.size(); ++p) {
+void ToolContacts::add_seen(const Layup& layup, std::vector<PairSeen>& seen) const {
+  for (const ToolState& t : tools)
+    for (std::size_t p = 0; p < layup.plies.size(); ++p) {
       const ToolPlyContact& c = t.contacts[p];
-      seen.push_back({t.name, s.plies[p].name, c.law, c.sums, c.time.forces + c.time.search});
+      seen.push_back({t.name, layup.plies[p].name, c.law, c.sums, c.time.forces + c.time.search});
     }
 }
 
-std::string ToolContacts::who(const Scene& s, std::size_t tool, std::size_t ply) {
-  return fmt::format("ply {}, node {}, and tool {}", s.plies[ply].name,
-                     deepest_node(s.tools[tool].contacts[ply].points), s.tools[tool].name);
+std::string ToolContacts::who(const Layup& layup, std::size_t tool, std::size_t ply) const {
+  return fmt::format("ply {}, node {}, and tool {}", layup.plies[ply].name,
+                     deepest_node(tools[tool].contacts[ply].points), tools[tool].name);
 }
 
-double PlyContacts::place(const Scene& s, int task) {
-  const PlyPair& pair = s.ply_pairs[at(task)];
-  return 0.5 * (pair.a + pair.b + 1) / static_cast<double>(s.plies.size());
+double PlyContacts::place(const Layup& layup, int task) const {
+  const PlyPair& pair = ply_pairs[at(task)];
+  return 0.5 * (pair.a + pair.b + 1) / static_cast<double>(layup.plies.size());
 }
 
-void PlyContacts::run(Scene& s, int task) {
-  PlyPair& pair = s.ply_pairs[at(task)];
+void PlyContacts::run(Layup& layup, int task) {
+  PlyPair& pair = ply_pairs[at(task)];
   if (pair.loaded) {
     std::fill(pair.force_a.begin(), pair.force_a.end(), Vec3::Zero());
     std::fill(pair.force_b.begin(), pair.force_b.end(), Vec3::Zero());
   }
   pair.loaded = false;
-  const PlyBody &a = s.plies[at(pair.a)], &b = s.plies[at(pair.b)];
+  const PlyBody &a = layup.plies[at(pair.a)], &b = layup.plies[at(pair.b)];
   for (PlyContact& pass : pair.passes) {
     const bool up = pass.slave == pair.a;
     const PlyBody &slave = up ? a : b, &master = up ? b : a;
-    ply_ply_forces(pass.contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
+    ply_ply_forces(pass.contact, slave.state(), master.state(), master.membrane.triangles, layup.dt,
                    {a.max_displacement + b.max_displacement, a.path_length + b.path_length},
                    up ? pair.force_a : pair.force_b, up ? pair.force_b : pair.force_a);
     pair.loaded = pair.loaded || pass.contact.sums.touching > 0;
   }
   EdgeEdgeContact& edges = pair.edges.contact;
-  edge_forces(edges, a.edge_sheet(), b.edge_sheet(), s.dt, pair.force_a, pair.force_b);
+  edge_forces(edges, a.edge_sheet(), b.edge_sheet(), layup.dt, pair.force_a, pair.force_b);
   pair.loaded = pair.loaded || edges.sums.touching > 0;
 }
 
-void PlyContacts::list_arrays(Scene& s) {
-  for (const PlyPair& pair : s.ply_pairs) {
+void PlyContacts::list_arrays(Layup& layup) {
+  for (const PlyPair& pair : ply_pairs) {
     if (!pair.loaded) continue;
-    s.plies[at(pair.a)].nodal_forces.push_back(&pair.force_a);
-    s.plies[at(pair.b)].nodal_forces.push_back(&pair.force_b);
+    layup.plies[at(pair.a)].nodal_forces.push_back(&pair.force_a);
+    layup.plies[at(pair.b)].nodal_forces.push_back(&pair.force_b);
   }
 }
 
-void PlyContacts::add_energies(const Scene& s, ThreadPool&, Energies& e) {
-  each_pass(s, [&](const PlyContact& pass) {
+void PlyContacts::add_energies(const Layup&, ThreadPool&, Energies& e) const {
+  each_pass(*this, [&](const PlyContact& pass) {
     add_sums(pass.contact.law, pass.contact.sums, e);
     e.external += pass.contact.sums.vacuum;
   });
-  each_edge_contact(
-      s, [&](const PlyEdgeContact& edges) { add_sums(edges.contact.law, edges.contact.sums, e); });
+  each_edge_contact(*this, [&](const PlyEdgeContact& edges) {
+    add_sums(edges.contact.law, edges.contact.sums, e);
+  });
 }
 
-void PlyContacts::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
-  for (const PlyPair& pair : s.ply_pairs) {
+void PlyContacts::add_rows(const Layup&, std::size_t ply, std::span<ContactRow> rows) const {
+  for (const PlyPair& pair : ply_pairs) {
     if (at(pair.a) == ply) add(pair.rows_a, rows);
     if (at(pair.b) == ply) add(pair.rows_b, rows);
   }
 }
 
-std::optional<Stop> PlyContacts::fault(const Scene& s) {
-  return find_fault(s);
+std::optional<Stop> PlyContacts::fault(const Layup& layup) const {
+  return find_fault(*this, layup);
 }
 
-void PlyContacts::add_times(const Scene& s, Times& times) {
-  each_contact(s, [&](const auto& contact, const auto&) {
+void PlyContacts::add_times(Times& times) const {
+  const auto add_time = [&times](const auto& contact) {
     times.contact += contact.time.forces, times.search += contact.time.search;
-  });
+  };
+  each_pass(*this, [&](const PlyContact& c) { add_time(c.contact); });
+  each_edge_contact(*this, [&](const PlyEdgeContact& c) { add_time(c.contact); });
 }
 
-void PlyContacts::add_seen(const Scene& s, std::vector<PairSeen>& seen) {
+void PlyContacts::add_seen(const Layup& layup, std::vector<PairSeen>& seen) const {
   const auto add = [&](int a, int b, const auto& contact, bool of_edges) {
-    seen.push_back({name_of(s, std::min(a, b)), name_of(s, std::max(a, b)), contact.law,
+    seen.push_back({name_of(layup, std::min(a, b)), name_of(layup, std::max(a, b)), contact.law,
                     contact.sums, contact.time.forces + contact.time.search, of_edges});
   };
-  each_pass(s, [&](const PlyContact& c) { add(c.slave, c.master, c.contact, false); });
-  each_edge_contact(s, [&](const PlyEdgeContact& c) { add(c.a, c.b, c.contact, true); });
+  each_pass(*this, [&](const PlyContact& c) { add(c.slave, c.master, c.contact, false); });
+  each_edge_contact(*this, [&](const PlyEdgeContact& c) { add(c.a, c.b, c.contact, true); });
 }
 
-std::string PlyContacts::who(const Scene& s, const PlyContact& pass) {
-  return fmt::format("ply {}, node {}, and ply {}", name_of(s, pass.slave),
-                     deepest_node(pass.contact.points), name_of(s, pass.master));
+std::string PlyContacts::who(const Layup& layup, const PlyContact& pass) {
+  return fmt::format("ply {}, node {}, and ply {}", name_of(layup, pass.slave),
+                     deepest_node(pass.contact.points), name_of(layup, pass.master));
 }
 
-std::string PlyContacts::who(const Scene& s, const PlyEdgeContact& edges) {
-  return fmt::format("edges of plies {} and {}", name_of(s, edges.a), name_of(s, edges.b));
+std::string PlyContacts::who(const Layup& layup, const PlyEdgeContact& edges) {
+  return fmt::format("edges of plies {} and {}", name_of(layup, edges.a), name_of(layup, edges.b));
 }
 
 void BoundaryForces::finish(Scene& s, ThreadPool&) {
-  pull_springs(s);
+  pull_springs(*this, s, s.tools);
 }
 
-void BoundaryForces::list_arrays(Scene& s) {
-  for (PlyBody& ply : s.plies) {
+void BoundaryForces::list_arrays(Layup& layup) {
+  for (PlyBody& ply : layup.plies) {
     if (!ply.reaction.empty()) ply.nodal_forces.push_back(&ply.reaction);
     if (!ply.pull.empty()) ply.nodal_forces.push_back(&ply.pull);
   }
 }
 
-void BoundaryForces::add_energies(const Scene& s, ThreadPool&, Energies& e) {
-  for (const BoundaryState& b : s.boundaries)
+void BoundaryForces::add_energies(const Layup&, ThreadPool&, Energies& e) const {
+  for (const BoundaryState& b : boundaries)
     e.external += b.work;
 }
 
-void BoundaryForces::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
-  add_attachment_stiffness(s, ply, rows);
+void BoundaryForces::add_rows(const Layup& layup, std::size_t ply,
+                              std::span<ContactRow> rows) const {
+  add_attachment_stiffness(*this, layup, ply, rows);
 }
 
 } // namespace plyform

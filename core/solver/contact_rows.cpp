@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/contact_rows.hpp"
 
-#include "core/solver/force_kinds.hpp"
-
 namespace plyform {
 namespace {
 
@@ -14,8 +12,8 @@ void visit_contacts(SomePair& pair, const Visit& visit) {
   visit(pair.edges.contact);
 }
 
-void renew_rows(const Scene& s, PlyPair& pair) {
-  const PlyBody &a = s.plies[at(pair.a)], &b = s.plies[at(pair.b)];
+void renew_rows(const Layup& layup, PlyPair& pair) {
+  const PlyBody &a = layup.plies[at(pair.a)], &b = layup.plies[at(pair.b)];
   pair.rows_a.clear(), pair.rows_b.clear();
   const auto begin = [&] {
     pair.rows_a.resize(a.x.size());
@@ -27,12 +25,12 @@ void renew_rows(const Scene& s, PlyPair& pair) {
     const bool up = pass.slave == pair.a;
     const PlyBody &slave = up ? a : b, &master = up ? b : a;
     add_ply_ply_stiffness(pass.contact, slave.state(), master.state(), master.membrane.triangles,
-                          s.bound_margin, up ? pair.rows_a : pair.rows_b,
+                          layup.bound_margin, up ? pair.rows_a : pair.rows_b,
                           up ? pair.rows_b : pair.rows_a);
   }
   if (!pair.edges.contact.groups.empty()) {
     begin();
-    add_edge_stiffness(pair.edges.contact, edge_margin(s), pair.rows_a, pair.rows_b);
+    add_edge_stiffness(pair.edges.contact, edge_margin(layup), pair.rows_a, pair.rows_b);
   }
   visit_contacts(pair, [](auto& contact) {
     contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
@@ -49,21 +47,22 @@ bool has_deepened(const PlyPair& pair) {
 
 /// Renews the rows of the pairs for which due(pair) holds.
 template <class Due>
-void renew_rows_if(Scene& s, ThreadPool& pool, const Due& due) {
-  pool.run(static_cast<int>(s.ply_pairs.size()), [&](int i) {
-    PlyPair& pair = s.ply_pairs[static_cast<std::size_t>(i)];
-    if (due(pair)) renew_rows(s, pair);
+void renew_rows_if(const Layup& layup, std::vector<PlyPair>& pairs, ThreadPool& pool,
+                   const Due& due) {
+  pool.run(static_cast<int>(pairs.size()), [&](int i) {
+    PlyPair& pair = pairs[at(i)];
+    if (due(pair)) renew_rows(layup, pair);
   });
 }
 
 } // namespace
 
-void renew_rows(Scene& s, ThreadPool& pool) {
-  renew_rows_if(s, pool, [](const PlyPair&) { return true; });
+void renew_rows(const Layup& layup, std::vector<PlyPair>& pairs, ThreadPool& pool) {
+  renew_rows_if(layup, pairs, pool, [](const PlyPair&) { return true; });
 }
 
-void renew_deepened_rows(Scene& s, ThreadPool& pool) {
-  renew_rows_if(s, pool, has_deepened);
+void renew_deepened_rows(const Layup& layup, std::vector<PlyPair>& pairs, ThreadPool& pool) {
+  renew_rows_if(layup, pairs, pool, has_deepened);
 }
 
 ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
@@ -71,7 +70,7 @@ ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
   pool.run(static_cast<int>(c.size()), [&](int p) {
     std::vector<ContactRow>& rows = c[at(p)];
     rows.resize(s.plies[at(p)].x.size());
-    each_kind<SumsOfForces>([&]<class K>() { K::add_rows(s, at(p), rows); });
+    each_kind<InOrder::summed>(s, [&](const auto& kind) { kind.add_rows(s, at(p), rows); });
   });
   return c;
 }

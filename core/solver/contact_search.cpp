@@ -32,60 +32,61 @@ void remove_neighbours(std::vector<Candidate>& candidates, std::span<const Vec3>
   std::erase_if(candidates, neighbour);
 }
 
-void search_tool(Scene& s, ToolState& t) {
-  for (std::size_t p = 0; p < s.plies.size(); ++p)
-    find_tool_ply_points(t.contacts[p], t.body, s.plies[p].state(),
-                         std::max(s.skin, step_displacement(s, static_cast<int>(p), t)),
-                         path_length_ahead(s, t) + s.plies[p].path_length);
+void search_tool(Layup& layup, ToolState& t) {
+  for (std::size_t p = 0; p < layup.plies.size(); ++p)
+    find_tool_ply_points(t.contacts[p], t.body, layup.plies[p].state(),
+                         std::max(layup.skin, step_displacement(layup, static_cast<int>(p), t)),
+                         path_length_ahead(t, layup.dt) + layup.plies[p].path_length);
   t.displacement_search = t.body.displacement;
 }
 
-void search_plies(Scene& s, PlyContact& pair) {
-  const PlyBody& slave = s.plies[pair.slave];
-  const PlyBody& master = s.plies[pair.master];
+void search_plies(Layup& layup, PlyContact& pair) {
+  const PlyBody& slave = layup.plies[pair.slave];
+  const PlyBody& master = layup.plies[pair.master];
   const Stopwatch watch(pair.contact.time.search);
   // also nodes that have passed through within the step, which find_pass_through then detects
-  const double reach = std::max(reach_of(s, pair.contact.distance), step_displacement(s, pair));
+  const double reach =
+      std::max(reach_of(layup, pair.contact.distance), step_displacement(layup, pair));
   std::vector<Candidate> candidates;
   if (may_meet(slave.tree->bounds(), master.tree->bounds(), reach))
     master.tree->candidates(slave.x, reach, candidates,
-                            occluded_nodes(s, pair.slave, pair.master, reach));
+                            occluded_nodes(layup, pair.slave, pair.master, reach));
   if (pair.slave == pair.master)
     remove_neighbours(candidates, slave.x0, slave.membrane.triangles,
                       neighbourhood * pair.contact.distance);
   find_ply_ply_points(pair.contact, candidates, slave.state(), master.state(),
                       master.membrane.triangles, slave.path_length + master.path_length);
-  if (neighbours(pair)) mark_occluded(s, s.plies[pair.slave], pair, master);
+  if (neighbours(pair)) mark_occluded(layup, layup.plies[pair.slave], pair, master);
 }
 
 /// Allocates the force arrays of two plies as soon as anything of them may touch: most pairs of a
 /// stack never do.
-void allocate_forces(const Scene& s, PlyPair& pair) {
+void allocate_forces(const Layup& layup, PlyPair& pair) {
   const auto may_touch = [](const PlyContact& pass) { return !pass.contact.points.empty(); };
   if (!pair.force_a.empty() || (std::none_of(pair.passes.begin(), pair.passes.end(), may_touch) &&
                                 pair.edges.contact.groups.empty()))
     return;
-  pair.force_a.assign(s.plies[pair.a].x.size(), Vec3::Zero());
-  pair.force_b.assign(s.plies[pair.b].x.size(), Vec3::Zero());
+  pair.force_a.assign(layup.plies[pair.a].x.size(), Vec3::Zero());
+  pair.force_b.assign(layup.plies[pair.b].x.size(), Vec3::Zero());
 }
 
-void find_ply_unfolded(const Scene& s, PlyBody& ply) {
+void find_ply_unfolded(const Layup& layup, PlyBody& ply) {
   if (ply.self_contact)
     find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x,
-                  ply.thickness * std::max(s.thickest, 1.0), s.skin, ply.unfolded);
+                  ply.thickness * std::max(layup.thickest, 1.0), layup.skin, ply.unfolded);
 }
 
-void find_ply_ridges(const Scene& s, PlyBody& ply) {
-  if (!s.ply_pairs.empty()) find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
+void find_ply_ridges(const Layup& layup, PlyBody& ply) {
+  if (layup.plies_meet) find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
 }
 
-void refit_tree(const Scene&, PlyBody& ply) {
+void refit_tree(const Layup&, PlyBody& ply) {
   ply.tree->refit(ply.x);
   ply.x_search = ply.x;
 }
 
-void find_fold_bounds(const Scene& s, PlyBody& ply) {
-  if (!s.ply_pairs.empty()) renew_fold_bounds(ply); // only contacts between plies use them
+void find_fold_bounds(const Layup& layup, PlyBody& ply) {
+  if (layup.plies_meet) renew_fold_bounds(ply); // only contacts between plies use them
 }
 
 /// What of a ply is found anew at a search, the longest first. None depends on another: a task
@@ -136,10 +137,10 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     n.moved2 = 0.0;
   for (PlyBody& ply : s.plies)
     ply.max_displacement = ply.thickening_path = 0.0;
-  find_far_tools(s);
+  find_far_tools(s, s.tools);
   for (ToolState& t : s.tools) // what it may still move in this step
     t.max_displacement = t.body.force_controlled && !t.far ? t.body.max_approach_speed * s.dt : 0.0;
-  find_resting(s);
+  find_resting(s, s.tools, s);
   ++s.searches;
 }
 

@@ -11,9 +11,9 @@ namespace {
 
 /// Numbers of the edges of a ply that may touch the ply `other`: all but those with both nodes
 /// occluded, as of occluded_nodes.
-std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double reach) {
-  const PlyBody& body = s.plies[ply];
-  const std::span<const char> occluded = occluded_nodes(s, ply, other, reach);
+std::vector<std::int32_t> open_edges(const Layup& layup, int ply, int other, double reach) {
+  const PlyBody& body = layup.plies[ply];
+  const std::span<const char> occluded = occluded_nodes(layup, ply, other, reach);
   std::vector<std::int32_t> open;
   for (std::size_t i = 0; i < body.edges.all.size(); ++i) {
     const SheetEdge& e = body.edges.all[i];
@@ -25,13 +25,14 @@ std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double 
 
 /// What the search for edges of two plies asks for.
 struct EdgeQuery {
-  EdgeQuery(const Scene& s, const PlyEdgeContact& pair)
-      : a(s.plies[pair.a]), b(s.plies[pair.b]),
-        skin(std::max(s.skin, step_displacement(s, pair.a) + step_displacement(s, pair.b))) {
+  EdgeQuery(const Layup& layup, const PlyEdgeContact& pair)
+      : a(layup.plies[pair.a]), b(layup.plies[pair.b]),
+        skin(std::max(layup.skin,
+                      step_displacement(layup, pair.a) + step_displacement(layup, pair.b))) {
     const double reach = pair.contact.distance + skin;
     if (may_meet(a.tree->bounds(), b.tree->bounds(), reach)) {
-      open_a = open_edges(s, pair.a, pair.b, reach);
-      open_b = open_edges(s, pair.b, pair.a, reach);
+      open_a = open_edges(layup, pair.a, pair.b, reach);
+      open_b = open_edges(layup, pair.b, pair.a, reach);
     }
     // the contact distance of edges is half that of nodes
     if (pair.a == pair.b) self = {a.x0, neighbourhood * 2.0 * pair.contact.distance};
@@ -44,17 +45,17 @@ struct EdgeQuery {
 
 } // namespace
 
-void search_edges(const Scene& s, PlyEdgeContact& pair) {
+void search_edges(const Layup& layup, PlyEdgeContact& pair) {
   const Stopwatch watch(pair.contact.time.search);
-  const EdgeQuery q(s, pair);
+  const EdgeQuery q(layup, pair);
   find_edge_pairs(pair.contact, q.a.edge_sheet(), q.open_a, q.b.edge_sheet(), q.open_b, q.skin,
                   q.self);
 }
 
-void search_new_ridges(const Scene& s, PlyEdgeContact& pair, std::span<const std::int32_t> new_a,
-                       std::span<const std::int32_t> new_b) {
+void search_new_ridges(const Layup& layup, PlyEdgeContact& pair,
+                       std::span<const std::int32_t> new_a, std::span<const std::int32_t> new_b) {
   const Stopwatch watch(pair.contact.time.search);
-  const EdgeQuery q(s, pair);
+  const EdgeQuery q(layup, pair);
   // since the contact search
   const double moved = q.a.max_displacement + q.b.max_displacement;
   add_edge_pairs(pair.contact, q.a.edge_sheet(), q.open_a, new_a, q.b.edge_sheet(), q.open_b, new_b,

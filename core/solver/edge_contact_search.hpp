@@ -3,18 +3,19 @@
 // since (contact/search/sheet_ridges.hpp).
 #pragma once
 
-#include "core/solver/scene.hpp"
+#include "core/solver/contact_state.hpp"
+#include "core/solver/layup.hpp"
 
 #include <span>
 
 namespace plyform {
 
 /// Lists every pair of ridges of two plies within contact distance + skin.
-void search_edges(const Scene& scene, PlyEdgeContact& pair);
+void search_edges(const Layup& layup, PlyEdgeContact& pair);
 
 /// Adds the pairs of these edges, which have become ridges since the search, with all ridges of the
 /// other ply. new_a, new_b: numbers of edges of either ply, ascending.
-void search_new_ridges(const Scene& scene, PlyEdgeContact& pair,
+void search_new_ridges(const Layup& layup, PlyEdgeContact& pair,
                        std::span<const std::int32_t> new_a, std::span<const std::int32_t> new_b);
 
 } // namespace plyform

@@ -139,16 +139,16 @@ double added_element_mass(const Membrane& m) {
   return added / cloth;
 }
 
-double largest_added_element_mass(const Scene& s) {
+double largest_added_element_mass(const Layup& layup) {
   double share = 0.0;
-  for (const PlyBody& ply : s.plies)
+  for (const PlyBody& ply : layup.plies)
     share = std::max(share, added_element_mass(ply.membrane));
   return share;
 }
 
-double effective_mass_factor(const Scene& s) {
+double effective_mass_factor(const Layup& layup) {
   double most = 1.0;
-  for (const PlyBody& ply : s.plies) {
+  for (const PlyBody& ply : layup.plies) {
     const Membrane& m = ply.membrane;
     double cubes = 0.0, area = 0.0;
     for (std::size_t e = 0; e < m.density_factor.size(); ++e) {

@@ -20,7 +20,7 @@
 // LS-DYNA Theory Manual.
 #pragma once
 
-#include "core/solver/scene.hpp"
+#include "core/solver/layup.hpp"
 
 namespace plyform {
 
@@ -34,12 +34,12 @@ void scale_element_masses(const Case& data, std::vector<PlyBody>& plies);
 double added_element_mass(const Membrane& membrane);
 
 /// The largest of that of all plies.
-double largest_added_element_mass(const Scene& scene);
+double largest_added_element_mass(const Layup& layup);
 
 /// By how much inertia counts for more, in the ply where it does most: the error by inertia goes
 /// with the power 1.5 of the mass (core/accuracy/error_model.hpp), here element by element, and is
 /// the root mean square over the area, so that the factor is the cubic mean of those of the
 /// elements. 1 without mass scaling.
-double effective_mass_factor(const Scene& scene);
+double effective_mass_factor(const Layup& layup);
 
 } // namespace plyform

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Energies and work of a scene: stored energies are computed from the present state, work and
 // dissipation have been accumulated step by step.
-#include "core/solver/force_kinds.hpp"
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/step.hpp"
 
@@ -35,13 +34,13 @@ Energies current_energies(const Scene& s, ThreadPool& pool) {
   std::vector<Energies> of_ply(s.plies.size());
   pool.run(static_cast<int>(of_ply.size()), [&](int p) {
     const PlyBody& ply = s.plies[at(p)];
-    of_ply[at(p)].kinetic = kinetic_energy(ply, s.dt, s.next_dt, mass_loads(s));
+    of_ply[at(p)].kinetic = kinetic_energy(ply, s.dt, s.next_dt, mass_loads(s.data));
     of_ply[at(p)].external = work_of_gravity(ply, s.data.gravity) + ply.law_work;
   });
   Energies e;
   for (const Energies& ply : of_ply)
     e += ply;
-  each_kind<SumsOfForces>([&]<class K>() { K::add_energies(s, pool, e); });
+  each_kind<InOrder::summed>(s, [&](const auto& kind) { kind.add_energies(s, pool, e); });
   e.damping += s.mass_damping_work;
   e.mass_scaling = s.mass_scaling_work;
   e.external += s.start_energy;

@@ -22,10 +22,10 @@ void note_fibres(PlyBody& ply) {
 
 } // namespace
 
-void note_fibres(Scene& s, ThreadPool& pool) {
+void note_fibres(Layup& layup, ThreadPool& pool) {
   const auto asks = [](const FrictionLawPtr& law) { return !law->spec().over_angle.empty(); };
-  if (std::none_of(s.data.friction_laws.begin(), s.data.friction_laws.end(), asks)) return;
-  pool.run(static_cast<int>(s.plies.size()), [&](int p) { note_fibres(s.plies[at(p)]); });
+  if (std::none_of(layup.data.friction_laws.begin(), layup.data.friction_laws.end(), asks)) return;
+  pool.run(static_cast<int>(layup.plies.size()), [&](int p) { note_fibres(layup.plies[at(p)]); });
 }
 
 } // namespace plyform

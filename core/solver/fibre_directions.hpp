@@ -3,12 +3,12 @@
 #pragma once
 
 #include "base/thread_pool.hpp"
-#include "core/solver/scene.hpp"
+#include "core/solver/layup.hpp"
 
 namespace plyform {
 
 /// Sets PlyCache::fibres, of the first family of each ply, if a law of the case asks for them: at a
 /// node the mean of its triangles by their areas.
-void note_fibres(Scene& scene, ThreadPool& pool);
+void note_fibres(Layup& layup, ThreadPool& pool);
 
 } // namespace plyform

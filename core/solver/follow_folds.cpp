@@ -30,27 +30,27 @@ void follow_fold_bounds(PlyBody& ply, double element_size) {
 
 } // namespace
 
-void follow_folds(Scene& s, ThreadPool& pool, bool searched) {
-  if (s.ply_pairs.empty()) return;
-  std::vector<std::vector<std::int32_t>> grown(s.plies.size());
-  pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyBody& ply = s.plies[p];
+void follow_folds(Layup& layup, PlyContacts& contacts, ThreadPool& pool, bool searched) {
+  if (contacts.ply_pairs.empty()) return;
+  std::vector<std::vector<std::int32_t>> grown(layup.plies.size());
+  pool.run(static_cast<int>(layup.plies.size()), [&](int p) {
+    PlyBody& ply = layup.plies[p];
     patch_motions(ply.edges, ply.motion, ply.patch_motion);
     if (searched) return;
     const Stopwatch watch(ply.search_seconds);
-    follow_fold_bounds(ply, s.element_size);
+    follow_fold_bounds(ply, layup.element_size);
     if (follow_ridges(ply.edges, ply.x, ply.patch_motion, ply.ridge_limit, ply.ridges)) return;
     const std::vector<char> before = ply.ridges.sides;
     find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
     grown[static_cast<std::size_t>(p)] = new_ridges(before, ply.ridges.sides);
   });
   std::vector<PlyEdgeContact*> due;
-  each_edge_contact(s, [&](PlyEdgeContact& pair) {
+  each_edge_contact(contacts, [&](PlyEdgeContact& pair) {
     if (!grown[at(pair.a)].empty() || !grown[at(pair.b)].empty()) due.push_back(&pair);
   });
   pool.run(static_cast<int>(due.size()), [&](int i) {
     PlyEdgeContact& pair = *due[static_cast<std::size_t>(i)];
-    search_new_ridges(s, pair, grown[at(pair.a)], grown[at(pair.b)]);
+    search_new_ridges(layup, pair, grown[at(pair.a)], grown[at(pair.b)]);
   });
 }
 

@@ -11,6 +11,6 @@ namespace plyform {
 /// (contact/search/fold_bound.hpp) when sides may have turned by as much as those allow for, finds
 /// ridges (contact/search/sheet_ridges.hpp), and searches for what new ones are near. searched:
 /// whether bounds and ridges were found in this step.
-void follow_folds(Scene& scene, ThreadPool& pool, bool searched);
+void follow_folds(Layup& layup, PlyContacts& contacts, ThreadPool& pool, bool searched);
 
 } // namespace plyform

@@ -51,8 +51,8 @@ struct Faces {
   std::vector<double> capacity; ///< C
 };
 
-Faces faces_of(const Scene& s, std::size_t p) {
-  const PlyBody& ply = s.plies[p];
+Faces faces_of(const Layup& layup, std::size_t p) {
+  const PlyBody& ply = layup.plies[p];
   const Fabric& fabric = ply.membrane.fabric;
   Faces faces;
   faces.normals = area_normals(ply.x, ply.membrane.triangles);
@@ -84,14 +84,15 @@ std::size_t side_of(const Faces& faces, std::int32_t node, const Vec3& direction
 
 /// A tool counts as half the ply's thickness further away than it is: a ply that is as near lies
 /// before it, since none lies behind a tool.
-void add_tools(const Scene& s, std::size_t p, double time, Faces& faces) {
-  const Cooling& cooling = *s.data.process.cooling;
-  const double thickness = s.plies[p].thickness;
+void add_tools(const Layup& layup, const std::vector<ToolState>& tools, std::size_t p, double time,
+               Faces& faces) {
+  const Cooling& cooling = *layup.data.process.cooling;
+  const double thickness = layup.plies[p].thickness;
   constexpr double same = 0.1; // of the thickness: two tools touch the face there
-  for (std::size_t t = 0; t < s.tools.size(); ++t) {
-    const std::optional<double> celsius = tool_temperature(s.data, s.data.tools[t], time);
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    const std::optional<double> celsius = tool_temperature(layup.data, layup.data.tools[t], time);
     if (!celsius) continue; // tools take no heat
-    for (const ToolPlyPoint& c : s.tools[t].contacts[p].points) {
+    for (const ToolPlyPoint& c : tools[t].contacts[p].points) {
       const double gap = latest_gap(c);
       if (!covers(gap, cooling.to_air)) continue;
       const double h = through_film(cooling.to_tools, gap, cooling.to_air);
@@ -137,8 +138,8 @@ void balance(const PlyPair& pair, const std::vector<Faces>& faces, PairCovers& c
 }
 
 /// What lies beside a node, not before it, covers nothing; nor does what is too far.
-std::vector<Covering> coverings(const Scene& s, const PlyContact& pass) {
-  const PlyBody &slave = s.plies[at(pass.slave)], &master = s.plies[at(pass.master)];
+std::vector<Covering> coverings(const Layup& layup, const PlyContact& pass) {
+  const PlyBody &slave = layup.plies[at(pass.slave)], &master = layup.plies[at(pass.master)];
   const std::vector<Triangle>& triangles = master.membrane.triangles;
   const std::vector<Cover> covers_it =
       covers_of(pass.contact, slave.state(), master.state(), triangles);
@@ -153,24 +154,25 @@ std::vector<Covering> coverings(const Scene& s, const PlyContact& pass) {
       seen.gap = *height - h;
       if (*height < 0.5 * h) seen.share = 0.0;
     }
-    if (!covers(seen.gap, s.data.process.cooling->to_air)) seen.share = 0.0;
+    if (!covers(seen.gap, layup.data.process.cooling->to_air)) seen.share = 0.0;
   }
   return found;
 }
 
-PairCovers covers_of_pair(const Scene& s, const PlyPair& pair, const std::vector<Faces>& faces) {
+PairCovers covers_of_pair(const Layup& layup, const PlyPair& pair,
+                          const std::vector<Faces>& faces) {
   PairCovers found;
   for (const PlyContact& pass : pair.passes)
-    found.push_back(coverings(s, pass));
+    found.push_back(coverings(layup, pass));
   balance(pair, faces, found);
   return found;
 }
 
 /// What the nodes of a contact's slave see of its master.
-void add_ply(const Scene& s, const PlyContact& pass, const std::vector<Covering>& seen,
+void add_ply(const Layup& layup, const PlyContact& pass, const std::vector<Covering>& seen,
              std::vector<Faces>& all) {
-  const Cooling& cooling = *s.data.process.cooling;
-  const PlyBody &slave = s.plies[at(pass.slave)], &master = s.plies[at(pass.master)];
+  const Cooling& cooling = *layup.data.process.cooling;
+  const PlyBody &slave = layup.plies[at(pass.slave)], &master = layup.plies[at(pass.master)];
   Faces& faces = all[at(pass.slave)];
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const PlyPlyPoint& c = pass.contact.points[i];
@@ -283,12 +285,12 @@ void set_temperatures(PlyBody& ply, std::vector<double> celsius, double before, 
 }
 
 /// Whether temperatures are to be renewed: now and then, and before any could have changed much.
-bool is_due(const Scene& s) {
-  if (s.step % temperatures_every == 0) return true;
-  const Cooling& cooling = *s.data.process.cooling;
+bool is_due(const Layup& layup) {
+  if (layup.step % temperatures_every == 0) return true;
+  const Cooling& cooling = *layup.data.process.cooling;
   const double h = std::max({cooling.to_tools, cooling.to_plies, cooling.to_air});
-  const double dt = (s.time - s.cooled_until) * s.data.process_time();
-  return std::any_of(s.plies.begin(), s.plies.end(), [&](const PlyBody& ply) {
+  const double dt = (layup.time - layup.cooled_until) * layup.data.process_time();
+  return std::any_of(layup.plies.begin(), layup.plies.end(), [&](const PlyBody& ply) {
     const Fabric& fabric = ply.membrane.fabric;
     return dt * h > longest_update * fabric.surface_density * *fabric.heat_capacity;
   });
@@ -307,7 +309,7 @@ std::vector<std::vector<double>> present_temperatures(const Scene& s, ThreadPool
   std::vector<Faces> faces(s.plies.size());
   pool.run(static_cast<int>(s.plies.size()), [&](int p) {
     faces[at(p)] = faces_of(s, at(p));
-    add_tools(s, at(p), middle, faces[at(p)]);
+    add_tools(s, s.tools, at(p), middle, faces[at(p)]);
   });
   std::vector<PairCovers> covers(s.ply_pairs.size());
   pool.run(static_cast<int>(covers.size()),

@@ -6,25 +6,25 @@
 
 namespace plyform {
 
-void note_thickness(Scene& s) {
-  s.thickest = s.thinnest = 1.0;
-  for (const PlyBody& ply : s.plies)
+void note_thickness(Layup& layup) {
+  layup.thickest = layup.thinnest = 1.0;
+  for (const PlyBody& ply : layup.plies)
     for (const double r : ply.thickness_ratio)
-      s.thickest = std::max(s.thickest, r), s.thinnest = std::min(s.thinnest, r);
+      layup.thickest = std::max(layup.thickest, r), layup.thinnest = std::min(layup.thinnest, r);
 }
 
-double reach_of(const Scene& s, double distance) {
-  return s.thickest * distance + s.skin;
+double reach_of(const Layup& layup, double distance) {
+  return layup.thickest * distance + layup.skin;
 }
 
-double least_distance(const Scene& s, const PlyPlyContact& contact) {
-  return s.thinnest * (contact.distance - contact.law.depth_limit());
+double least_distance(const Layup& layup, const PlyPlyContact& contact) {
+  return layup.thinnest * (contact.distance - contact.law.depth_limit());
 }
 
-void update_thickness(Scene& s, ThreadPool& pool) {
-  if (!s.any_thickness_acts) return;
-  pool.run(static_cast<int>(s.plies.size()), [&s](int p) {
-    PlyBody& ply = s.plies[at(p)];
+void update_thickness(Layup& layup, ThreadPool& pool) {
+  if (!layup.any_thickness_acts) return;
+  pool.run(static_cast<int>(layup.plies.size()), [&layup](int p) {
+    PlyBody& ply = layup.plies[at(p)];
     ply.thickening = 0.0;
     if (ply.resting || !ply.thickness_acts) return;
     std::swap(ply.thickness_ratio, ply.last_ratio);

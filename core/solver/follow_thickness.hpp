@@ -7,21 +7,21 @@
 #pragma once
 
 #include "base/thread_pool.hpp"
-#include "core/solver/scene.hpp"
+#include "core/solver/layup.hpp"
 
 namespace plyform {
 
 /// Sets the largest and the smallest ratio of the scene, Scene::thickest and thinnest, at a search.
-void note_thickness(Scene& s);
+void note_thickness(Layup& layup);
 
 /// mm, of mid-surfaces that may touch before the next search. distance: theirs before forming, mm.
-double reach_of(const Scene& s, double distance);
+double reach_of(const Layup& layup, double distance);
 
 /// mm, which contact keeps at least between two mid-surfaces anywhere.
-double least_distance(const Scene& s, const PlyPlyContact& contact);
+double least_distance(const Layup& layup, const PlyPlyContact& contact);
 
 /// Sets PlyCache::thickness_ratio of plies whose thickness acts, and what the search must know of
 /// its change. To be called at every step before contacts are searched.
-void update_thickness(Scene& s, ThreadPool& pool);
+void update_thickness(Layup& layup, ThreadPool& pool);
 
 } // namespace plyform

@@ -31,9 +31,9 @@ double balloon(const MooneyRivlinLaw& law, double stretch) {
 
 } // namespace
 
-std::string beyond_limit_pressure(const Scene& s, std::size_t p) {
-  const PlyBody& ply = s.plies[p];
-  const double pressure = std::abs(pressure_on(s.data, p, s.time).value_or(0.0));
+std::string beyond_limit_pressure(const Layup& layup, std::size_t p) {
+  const PlyBody& ply = layup.plies[p];
+  const double pressure = std::abs(pressure_on(layup.data, p, layup.time).value_or(0.0));
   if (!ply.membrane.fabric.sheet || !(pressure > 0.0)) return {};
   const auto* law = std::get_if<MooneyRivlinLaw>(&*ply.membrane.fabric.sheet);
   if (law == nullptr) return {};

@@ -11,7 +11,7 @@
 // 409-421).
 #pragma once
 
-#include "core/solver/scene.hpp"
+#include "core/solver/layup.hpp"
 
 #include <string>
 
@@ -19,6 +19,6 @@ namespace plyform {
 
 /// What a fault or a doubt says of a ply under a pressure whose rubber is stretched somewhere to
 /// where (P) falls, with a remedy; empty of others.
-std::string beyond_limit_pressure(const Scene& s, std::size_t ply);
+std::string beyond_limit_pressure(const Layup& layup, std::size_t ply);
 
 } // namespace plyform

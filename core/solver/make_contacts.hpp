@@ -3,7 +3,8 @@
 #pragma once
 
 #include "core/model/case.hpp"
-#include "core/solver/scene.hpp"
+#include "core/solver/contact_state.hpp"
+#include "core/solver/ply_body.hpp"
 
 #include <vector>
 

@@ -34,15 +34,15 @@ double largest_contact_omega2(const std::vector<ContactRow>& rows, const std::ve
 
 } // namespace
 
-void scale_masses(Scene& s, const ContactRows& touching) {
-  const double share = s.data.solver.mass_scaling;
+void scale_masses(Layup& layup, const std::vector<ToolState>& tools, const ContactRows& touching) {
+  const double share = layup.data.solver.mass_scaling;
   const auto swings = [](const ToolState& tool) { return tool.body.mass > 0.0 && !tool.far; };
-  if (share == 0.0 || std::any_of(s.tools.begin(), s.tools.end(), swings)) return;
+  if (share == 0.0 || std::any_of(tools.begin(), tools.end(), swings)) return;
   double elements = 0.0;
-  for (const PlyBody& ply : s.plies)
+  for (const PlyBody& ply : layup.plies)
     if (!ply.resting) elements = std::max(elements, element_omega2(ply));
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    PlyBody& ply = s.plies[p];
+  for (std::size_t p = 0; p < layup.plies.size(); ++p) {
+    PlyBody& ply = layup.plies[p];
     if (ply.resting) continue;
     const std::vector<double>& own = ply.membrane.node_mass;
     const double whole = std::accumulate(own.begin(), own.end(), 0.0);
@@ -53,11 +53,11 @@ void scale_masses(Scene& s, const ContactRows& touching) {
       const double wanted = std::max(own[n], touching[p][n].stiffness / kappa);
       const double mass =
           std::clamp(wanted, ply.mass[n] / largest_change, ply.mass[n] * largest_change);
-      s.mass_scaling_work += 0.5 * (mass - ply.mass[n]) * ply.velocity[n].squaredNorm();
+      layup.mass_scaling_work += 0.5 * (mass - ply.mass[n]) * ply.velocity[n].squaredNorm();
       ply.mass[n] = mass;
       added += mass - own[n];
     }
-    s.largest_added_mass = std::max(s.largest_added_mass, added / whole);
+    layup.largest_added_mass = std::max(layup.largest_added_mass, added / whole);
   }
 }
 

@@ -25,6 +25,6 @@ constexpr int mass_scaling_interval = 50; ///< steps
 
 /// Changes PlyState::mass towards (M), and adds to SceneProgress::mass_scaling_work and
 /// largest_added_mass.
-void scale_masses(Scene& scene, const ContactRows& touching);
+void scale_masses(Layup& layup, const std::vector<ToolState>& tools, const ContactRows& touching);
 
 } // namespace plyform

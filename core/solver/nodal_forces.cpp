@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/nodal_forces.hpp"
 
-#include "core/solver/force_kinds.hpp"
-
 #include <algorithm>
 
 namespace plyform {
@@ -12,17 +10,16 @@ namespace {
 void collect_forces(Scene& s) {
   for (PlyBody& ply : s.plies)
     ply.nodal_forces.clear();
-  each_kind([&]<class K>() { K::list_arrays(s); });
+  each_kind(s, [&](auto& kind) { kind.list_arrays(s); });
 }
 
-/// Calls f.operator()<K>(task) for the kind K that a number among all tasks belongs to.
-template <class F>
-void with_task(const Scene& s, int number, const F& f) {
+/// Runs the task that a number among those of all kinds belongs to.
+void run_task(Scene& s, int number) {
   int first = 0;
-  each_kind<TasksOfForces>([&]<class K>() {
-    const int task = number - first, tasks = K::tasks(s);
+  each_kind<InOrder::begun>(s, [&](auto& kind) {
+    const int task = number - first, tasks = kind.tasks(s);
     first += tasks;
-    if (task >= 0 && task < tasks) f.template operator()<K>(task);
+    if (task >= 0 && task < tasks) kind.run(s, task);
   });
 }
 
@@ -31,9 +28,9 @@ void with_task(const Scene& s, int number, const F& f) {
 std::vector<std::vector<int>> share_forces(const Scene& s, int threads) {
   std::vector<std::vector<int>> shares(static_cast<std::size_t>(threads));
   int number = 0;
-  each_kind<TasksOfForces>([&]<class K>() {
-    for (int i = 0; i < K::tasks(s); ++i) {
-      const int thread = std::min(threads - 1, static_cast<int>(K::place(s, i) * threads));
+  each_kind<InOrder::begun>(s, [&](const auto& kind) {
+    for (int i = 0; i < kind.tasks(s); ++i) {
+      const int thread = std::min(threads - 1, static_cast<int>(kind.place(s, i) * threads));
       shares[at(thread)].push_back(number++);
     }
   });
@@ -48,19 +45,17 @@ void element_and_contact_forces(Scene& s, ThreadPool& pool) {
     s.ply_states.push_back(ply.state());
   if (s.force_shares.size() != static_cast<std::size_t>(pool.size()))
     s.force_shares = share_forces(s, pool.size());
-  pool.run(s.force_shares, [&s](int number) {
-    with_task(s, number, [&s]<class K>(int task) { K::run(s, task); });
-  });
-  each_kind([&]<class K>() { K::finish(s, pool); });
+  pool.run(s.force_shares, [&s](int number) { run_task(s, number); });
+  each_kind(s, [&](auto& kind) { kind.finish(s, pool); });
   collect_forces(s);
 }
 
-MassLoads mass_loads(const Scene& s) {
-  return {s.data.gravity, s.data.solver.mass_damping};
+MassLoads mass_loads(const Case& data) {
+  return {data.gravity, data.solver.mass_damping};
 }
 
 void sum_forces(const PlyBody& ply, int begin, int end, Vec3* f) {
-  each_kind([&]<class K>() { K::add_to_nodes(ply, begin, end, f); });
+  each_kind_of([&]<class K>() { K::add_to_nodes(ply, begin, end, f); });
   for (const std::vector<Vec3>* force : ply.nodal_forces) {
     const Vec3* from = force->data() + begin;
     for (int i = 0; i < end - begin; ++i)

@@ -17,7 +17,7 @@ struct MassLoads {
   double damping;
 };
 
-MassLoads mass_loads(const Scene& scene);
+MassLoads mass_loads(const Case& data);
 
 /// Sum of all forces (N) on nodes begin .. end - 1, stored in f[0 ..]. The arrays are added one
 /// after the other; a node's terms are added in the same order however its ply is divided into

@@ -19,12 +19,13 @@ bool neighbours(const PlyContact& pair) {
   return pair.slave != pair.master && pair.master == next_ply(pair.slave, pair.master);
 }
 
-void mark_occluded(const Scene& s, PlyBody& slave, const PlyContact& pair, const PlyBody& master) {
+void mark_occluded(const Layup& layup, PlyBody& slave, const PlyContact& pair,
+                   const PlyBody& master) {
   const double path_length = slave.path_length + master.path_length;
   // A third ply between two keeps its least distance from both.
   const PlyPlyContact& contact = pair.contact;
   const double room =
-      (contact.distance - 2.0 * contact.law.depth_limit()) * std::min(s.thinnest, 1.0);
+      (contact.distance - 2.0 * contact.law.depth_limit()) * std::min(layup.thinnest, 1.0);
   std::vector<char>& occluded = slave.occluded[pair.master > pair.slave];
   occluded.assign(slave.x.size(), 0);
   for (std::size_t p = 0; p < pair.contact.points.size(); ++p) {
@@ -36,15 +37,16 @@ void mark_occluded(const Scene& s, PlyBody& slave, const PlyContact& pair, const
   }
 }
 
-std::span<const char> occluded_nodes(const Scene& s, int slave_ply, int master_ply, double reach) {
-  const PlyBody& slave = s.plies[slave_ply];
+std::span<const char> occluded_nodes(const Layup& layup, int slave_ply, int master_ply,
+                                     double reach) {
+  const PlyBody& slave = layup.plies[slave_ply];
   if (slave_ply == master_ply)
-    return reach > reach_of(s, slave.thickness) ? std::span<const char>() : slave.unfolded;
+    return reach > reach_of(layup, slave.thickness) ? std::span<const char>() : slave.unfolded;
   if (next_ply(slave_ply, master_ply) == master_ply) return {};
-  const PlyBody& between = s.plies[next_ply(slave_ply, master_ply)];
+  const PlyBody& between = layup.plies[next_ply(slave_ply, master_ply)];
   // Occluding plies were searched within contact distance + skin only: not valid for a larger
   // reach.
-  if (reach > reach_of(s, 0.5 * (slave.thickness + between.thickness))) return {};
+  if (reach > reach_of(layup, 0.5 * (slave.thickness + between.thickness))) return {};
   return slave.occluded[master_ply > slave_ply];
 }
 

@@ -3,7 +3,8 @@
 // in self-contact those where the ply is not folded.
 #pragma once
 
-#include "core/solver/scene.hpp"
+#include "core/solver/contact_state.hpp"
+#include "core/solver/layup.hpp"
 
 #include <span>
 
@@ -20,12 +21,13 @@ bool neighbours(const PlyContact& pair);
 /// Marks the slave's nodes that the master occludes from the plies beyond it: their gap to it is
 /// less than half the contact distance and none of their faces is at its boundary edge, so that no
 /// third ply fits in between.
-void mark_occluded(const Scene& s, PlyBody& slave, const PlyContact& pair, const PlyBody& master);
+void mark_occluded(const Layup& layup, PlyBody& slave, const PlyContact& pair,
+                   const PlyBody& master);
 
 /// Per node of the slave whether it cannot touch the master, as an adjacent ply occludes it or, in
 /// self-contact, its ply is not folded there; empty: every node may. reach: mm, up to which
 /// distance from the master it is asked.
-std::span<const char> occluded_nodes(const Scene& scene, int slave_ply, int master_ply,
+std::span<const char> occluded_nodes(const Layup& layup, int slave_ply, int master_ply,
                                      double reach);
 
 /// Whether two boxes are within `reach` (mm) of each other.

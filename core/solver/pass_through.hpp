@@ -9,21 +9,22 @@
 //   it was on the other side before the step if (u - r) . n < 0, i.e. r . n > |u|            (P)
 #pragma once
 
-#include "core/solver/step.hpp"
+#include "core/solver/force_kinds.hpp"
 
 namespace plyform {
 
 /// Upper bound of the relative displacement (mm) of a node of the slave and one of the master in
 /// this step: the sum of the largest displacements of both.
-double step_displacement(const Scene& scene, const PlyContact& pair);
+double step_displacement(const Layup& layup, const PlyContact& pair);
 
 /// Largest displacement (mm) of any node of a ply in this step; the second one relative to a tool.
-double step_displacement(const Scene& scene, int ply);
-double step_displacement(const Scene& scene, int ply, const ToolState& tool);
+double step_displacement(const Layup& layup, int ply);
+double step_displacement(const Layup& layup, int ply, const ToolState& tool);
 
 /// A node that passed through another ply or a tool within the last step, by (P) or the reversal of
 /// the tool's normal, or lies deeper in a tool than its contact law is valid. To be called after
 /// contact search and forces.
-std::optional<Stop> find_pass_through(const Scene& scene);
+std::optional<Stop> find_pass_through(const Layup& layup, const std::vector<ToolState>& tools,
+                                      const PlyContacts& contacts);
 
 } // namespace plyform

@@ -51,6 +51,8 @@ struct PlyModel {
   bool self_contact = false; ///< whether it is in contact with itself, too
   ThicknessLaw thickness_law;
   bool thickness_acts = false; ///< in contact: core/solver/follow_thickness.hpp
+  /// N/mm^3, of the contacts that bear the vacuums that push it (core/solver/vacuum_contact.hpp)
+  double vacuum_stiffness = 0.0;
   std::vector<double>
       rim_distance;    ///< contact/search/sheet_edges.hpp; where films slide and heat flows
   bool convex = false; ///< contact/search/unfolded.hpp; not asked without self-contact
@@ -143,8 +145,8 @@ struct PlyCache {
   bool pressed = false;
   /// What yarns will remember once the step that was computed is taken.
   std::vector<SimdYarnStates> yarns_end;
-  PackedStates viscous_end, bending_end; ///< likewise, of states of laws with rates
-  bool viscous_stepped = false;          ///< whether these are of the step that was computed
+  PackedStates viscous_end, bending_end;                 ///< likewise, of states of laws with rates
+  bool viscous_stepped = false, bending_stepped = false; ///< whether of the step that was computed
   /// What temperatures make of viscosities, of each triangle and of each node, and of elastic
   /// shear; empty: nothing.
   PackedStates flow_factors, node_flow_factors, shear_factors;
@@ -159,8 +161,8 @@ void each_array(PlyCache& ply, F&& f) {
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
          thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
          borne_load, area_now, last_load_work, last_ratio, squeeze, spread, pressed, yarns_end,
-         viscous_end, bending_end, viscous_stepped, flow_factors, node_flow_factors, shear_factors,
-         flow_time] = ply;
+         viscous_end, bending_end, viscous_stepped, bending_stepped, flow_factors,
+         node_flow_factors, shear_factors, flow_time] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);
@@ -201,7 +203,7 @@ struct PlyBody : PlyModel, PlyState, PlyCache {
                         viscous->states);
   }
   std::vector<double> bending_now() const {
-    return by_nodes(*bending, x.size(), viscous_stepped ? bending_end : bending_states,
+    return by_nodes(*bending, x.size(), bending_stepped ? bending_end : bending_states,
                     viscous_bending->states());
   }
   EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }

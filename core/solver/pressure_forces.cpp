@@ -21,15 +21,14 @@
 #include "base/format.hpp"
 #include "core/model/motion.hpp"
 #include "core/solver/force_kinds.hpp"
-#include "core/solver/vacuum_contact.hpp"
 
 #include <algorithm>
 
 namespace plyform {
 namespace {
 
-bool any_on(const Scene& s, std::size_t ply) {
-  return std::any_of(s.data.loads.begin(), s.data.loads.end(),
+bool any_on(const Layup& layup, std::size_t ply) {
+  return std::any_of(layup.data.loads.begin(), layup.data.loads.end(),
                      [ply](const PressureLoad& load) { return at(load.ply) == ply; });
 }
 
@@ -43,10 +42,10 @@ double half_work(const PlyBody& ply) {
 /// (K) of each node, and what of a vacuum changes as its gap opens, on the node and from the face
 /// over it: add(node, N/mm).
 template <class Add>
-void each_row(const Scene& s, std::size_t p, const Add& add) {
-  const double sixth = largest_pressure_on(s.data, p) / 6.0;
-  const PlyBody& ply = s.plies[p];
-  if (const double opening = 2.0 * vacuum_stiffness(s, p); opening > 0.0)
+void each_row(const Layup& layup, std::size_t p, const Add& add) {
+  const double sixth = largest_pressure_on(layup.data, p) / 6.0;
+  const PlyBody& ply = layup.plies[p];
+  if (const double opening = 2.0 * ply.vacuum_stiffness; opening > 0.0)
     for (std::size_t n = 0; n < ply.x.size(); ++n)
       add(n, opening *
                  std::max(ply.membrane.node_area[n], ply.area_now.empty() ? 0.0 : ply.area_now[n]));
@@ -60,14 +59,14 @@ void each_row(const Scene& s, std::size_t p, const Add& add) {
 
 } // namespace
 
-double PressureForces::place(const Scene& s, int task) {
-  return static_cast<double>(task) / static_cast<double>(s.plies.size());
+double PressureForces::place(const Layup& layup, int task) const {
+  return static_cast<double>(task) / static_cast<double>(layup.plies.size());
 }
 
-void PressureForces::run(Scene& s, int task) {
-  if (!any_on(s, at(task))) return;
-  PlyBody& ply = s.plies[at(task)];
-  const double pressure = pressure_on(s.data, at(task), s.time).value_or(0.0);
+void PressureForces::run(Layup& layup, int task) {
+  if (!any_on(layup, at(task))) return;
+  PlyBody& ply = layup.plies[at(task)];
+  const double pressure = pressure_on(layup.data, at(task), layup.time).value_or(0.0);
   ply.load.assign(ply.x.size(), Vec3::Zero());
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];
@@ -79,35 +78,38 @@ void PressureForces::run(Scene& s, int task) {
   ply.last_load_work = half_work(ply);
 }
 
-void PressureForces::end_step(Scene& s) {
-  for (PlyBody& ply : s.plies)
+void PressureForces::end_step(Layup& layup) {
+  for (PlyBody& ply : layup.plies)
     if (!ply.load.empty()) {
       ply.load_work += ply.last_load_work + half_work(ply);
       ply.last_load_work = 0.0;
     }
 }
 
-void PressureForces::list_arrays(Scene& s) {
-  for (PlyBody& ply : s.plies)
+void PressureForces::list_arrays(Layup& layup) {
+  for (PlyBody& ply : layup.plies)
     if (!ply.load.empty()) ply.nodal_forces.push_back(&ply.load);
 }
 
-void PressureForces::add_energies(const Scene& s, ThreadPool&, Energies& e) {
-  for (const PlyBody& ply : s.plies)
+void PressureForces::add_energies(const Layup& layup, ThreadPool&, Energies& e) const {
+  for (const PlyBody& ply : layup.plies)
     e.external += ply.load_work + ply.last_load_work;
 }
 
-void PressureForces::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
-  if (any_on(s, ply))
-    each_row(s, ply, [&](std::size_t n, double row) { rows[n].stiffness += row; });
+void PressureForces::add_rows(const Layup& layup, std::size_t ply,
+                              std::span<ContactRow> rows) const {
+  if (any_on(layup, ply))
+    each_row(layup, ply, [&](std::size_t n, double row) { rows[n].stiffness += row; });
 }
 
-PressureProduct::PressureProduct(const Scene& s, const TangentFactors& factors)
-    : on_ply_(s.plies.size()) {
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    if (s.plies[p].resting || !any_on(s, p)) continue;
-    on_ply_[p].assign(s.plies[p].x.size(), 0.0);
-    each_row(s, p, [&](std::size_t n, double row) { on_ply_[p][n] += factors.stiffness * row; });
+PressureProduct::PressureProduct(const PressureForces&, const Layup& layup,
+                                 const TangentFactors& factors)
+    : on_ply_(layup.plies.size()) {
+  for (std::size_t p = 0; p < layup.plies.size(); ++p) {
+    if (layup.plies[p].resting || !any_on(layup, p)) continue;
+    on_ply_[p].assign(layup.plies[p].x.size(), 0.0);
+    each_row(layup, p,
+             [&](std::size_t n, double row) { on_ply_[p][n] += factors.stiffness * row; });
   }
 }
 
@@ -116,9 +118,9 @@ void PressureProduct::add_on_ply(std::size_t ply, const PerPly& y, PerPly& f) co
     f[ply][n] += on_ply_[ply][n] * y[ply][n];
 }
 
-void PressureForces::describe(const Scene& s, std::vector<std::string>& lines) {
-  for (const PressureLoad& load : s.data.loads) {
-    const PlyBody& ply = s.plies[at(load.ply)];
+void PressureForces::describe(const Layup& layup, std::vector<std::string>& lines) const {
+  for (const PressureLoad& load : layup.data.loads) {
+    const PlyBody& ply = layup.plies[at(load.ply)];
     double area = 0.0;
     for (const double a : ply.membrane.node_area)
       area += a;

@@ -7,12 +7,12 @@
 #pragma once
 
 #include "base/thread_pool.hpp"
-#include "core/solver/scene.hpp"
+#include "core/solver/layup.hpp"
 
 namespace plyform {
 
 /// Gives stitches the pre-tension of the present time, and counts its work since
 /// SceneProgress::tightened_until. Asked again at the same time it adds nothing.
-void raise_pretension(Scene& s, ThreadPool& pool);
+void raise_pretension(Layup& layup, const std::vector<Block>& group_blocks, ThreadPool& pool);
 
 } // namespace plyform

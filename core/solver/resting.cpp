@@ -23,60 +23,58 @@ bool any_closed(const Points& points) {
 }
 
 /// Whether a tool that moves is near a ply, or one presses it.
-bool tool_is_near(const Scene& s, std::size_t p) {
-  for (std::size_t t = 0; t < s.tools.size(); ++t) {
-    const ToolPlyContact& contact = s.tools[t].contacts[p];
-    const bool moves = s.data.tools[t].motion != Motion::fixed;
+bool tool_is_near(const Case& data, const std::vector<ToolState>& tools, std::size_t p) {
+  for (std::size_t t = 0; t < tools.size(); ++t) {
+    const ToolPlyContact& contact = tools[t].contacts[p];
+    const bool moves = data.tools[t].motion != Motion::fixed;
     if (moves ? !contact.points.empty() : any_closed(contact.points)) return true;
   }
   return false;
 }
 
 /// mm, the longest that a tool may still go from where it is.
-double way_left(const Scene& s, std::size_t t) {
-  const Tool& tool = s.data.tools[t];
-  const double end = (1.0 + s.data.solver.dwell) * s.data.solver.duration;
+double way_left(const Layup& layup, const ToolState& state, const Tool& tool) {
+  const double end = (1.0 + layup.data.solver.dwell) * layup.data.solver.duration;
   if (tool.motion == Motion::force)
-    return s.tools[t].body.max_approach_speed * std::max(end - s.time, 0.0);
+    return state.body.max_approach_speed * std::max(end - layup.time, 0.0);
   if (tool.motion == Motion::fixed) return 0.0;
-  const double now = motion_at(tool, s.time, s.data.solver.duration);
+  const double now = motion_at(tool, layup.time, layup.data.solver.duration);
   double left = tool.programme.empty() ? std::abs(tool.stroke - now) : 0.0;
   for (const Stage& stage : tool.programme)
     left = std::max(left, std::abs(stage.value - now));
   return left;
 }
 
-bool is_far(const Scene& s, std::size_t t) {
-  const ToolState& tool = s.tools[t];
+bool is_far(const Layup& layup, const ToolState& tool, const Tool& model) {
   double gap = std::numeric_limits<double>::infinity(); // mm, at least, to any ply
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+  for (std::size_t p = 0; p < layup.plies.size(); ++p) {
     const ToolPlyContact& contact = tool.contacts[p];
     if (!contact.points.empty()) return false;
-    const double path = path_length_ahead(s, tool) + s.plies[p].path_length;
+    const double path = path_length_ahead(tool, layup.dt) + layup.plies[p].path_length;
     for (const float free : contact.free)
       gap = std::min(gap, double{free} - path);
   }
   // plies move by half a skin until the next search, and by one more step
-  return gap > way_left(s, t) + s.skin;
+  return gap > way_left(layup, tool, model) + layup.skin;
 }
 
 } // namespace
 
-void find_far_tools(Scene& s) {
-  for (std::size_t t = 0; t < s.tools.size(); ++t)
-    s.tools[t].far = is_far(s, t);
+void find_far_tools(const Layup& layup, std::vector<ToolState>& tools) {
+  for (std::size_t t = 0; t < tools.size(); ++t)
+    tools[t].far = is_far(layup, tools[t], layup.data.tools[t]);
 }
 
-void find_resting(Scene& s) {
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    PlyBody& ply = s.plies[p];
-    ply.resting = ply.left_alone && is_as_it_began(ply) && !tool_is_near(s, p);
+void find_resting(Layup& layup, const std::vector<ToolState>& tools, const PlyContacts& contacts) {
+  for (std::size_t p = 0; p < layup.plies.size(); ++p) {
+    PlyBody& ply = layup.plies[p];
+    ply.resting = ply.left_alone && is_as_it_began(ply) && !tool_is_near(layup.data, tools, p);
   }
   bool news = true; // what is woken may wake others
   while (news) {
     news = false;
-    for (const PlyPair& pair : s.ply_pairs) {
-      PlyBody &a = s.plies[pair.a], &b = s.plies[pair.b];
+    for (const PlyPair& pair : contacts.ply_pairs) {
+      PlyBody &a = layup.plies[pair.a], &b = layup.plies[pair.b];
       if (!a.resting && !b.resting) continue;
       const bool both = a.resting && b.resting;
       const auto wakes = [&](const PlyContact& pass) {

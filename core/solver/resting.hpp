@@ -8,14 +8,14 @@
 //            than the rest of its way
 #pragma once
 
-#include "core/solver/scene.hpp"
+#include "core/solver/force_kinds.hpp"
 
 namespace plyform {
 
 /// Sets PlyState::resting, after a search.
-void find_resting(Scene& scene);
+void find_resting(Layup& layup, const std::vector<ToolState>& tools, const PlyContacts& contacts);
 
 /// Sets ToolState::far, after a search.
-void find_far_tools(Scene& scene);
+void find_far_tools(const Layup& layup, std::vector<ToolState>& tools);
 
 } // namespace plyform

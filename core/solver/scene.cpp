@@ -9,6 +9,7 @@
 #include "core/model/reachable_temperature.hpp"
 #include "core/solver/element_mass_scaling.hpp"
 #include "core/solver/make_contacts.hpp"
+#include "core/solver/vacuum_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -139,7 +140,7 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
 // over the thickness of the thinnest ply: 0.5 mm for 0.6 mm.
 constexpr double margin_in_thicknesses = 1.0 / 1.2;
 
-/// SceneModel::pass_order.
+/// PlyContacts::pass_order.
 std::vector<PassPlace> order_of_passes(const std::vector<PlyPair>& pairs) {
   std::vector<PassPlace> order;
   for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -312,6 +313,8 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   const int n = static_cast<int>(s.plies.size());
   s.ply_pairs = make_pairs(data, s.plies);
   s.pass_order = order_of_passes(s.ply_pairs);
+  s.plies_meet = !s.ply_pairs.empty();
+  note_vacuum_stiffness(s.ply_pairs, s.plies);
   set_films(s);
   set_lengths(s);
   limit_ridges(s);

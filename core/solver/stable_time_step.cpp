@@ -2,7 +2,6 @@
 #include "core/solver/stable_time_step.hpp"
 
 #include "base/lanczos.hpp"
-#include "core/solver/force_kinds.hpp"
 #include "core/solver/frequencies.hpp"
 #include "core/solver/stiffness_operator.hpp"
 
@@ -37,11 +36,11 @@ struct PlyBound {
   }
 };
 
-PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
-  const PlyBody& ply = s.plies[p];
+PlyBound bound_of(const Layup& layup, const ContactRows& touching, std::size_t p) {
+  const PlyBody& ply = layup.plies[p];
   PlyBound of;
-  each_kind([&]<class K>() { K::add_bound(ply, of.elements); });
-  of.elements.damping += s.data.solver.mass_damping;
+  each_kind_of([&]<class K>() { K::add_bound(ply, of.elements); });
+  of.elements.damping += layup.data.solver.mass_damping;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const ContactRow& row = touching[p][n];
     const double mass = ply.mass[n];
@@ -64,21 +63,21 @@ double time_step_gain_of(const Scene& s, double dt, ThreadPool& pool) {
 
 double element_omega2(const PlyBody& ply) {
   Frequencies of;
-  each_kind([&]<class K>() { K::add_bound(ply, of); });
+  each_kind_of([&]<class K>() { K::add_bound(ply, of); });
   return of.omega2;
 }
 
-StepBound stable_step(const Scene& s, const ContactRows& touching) {
+StepBound stable_step(const Layup& layup, const ContactRows& touching) {
   StepBound bound;
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    if (s.plies[p].resting) continue;
-    const PlyBound of = bound_of(s, touching, p);
-    double dt = std::min(of.step_with_gain(s.time_step_gain, s.plies[p].lanczos_contacts),
+  for (std::size_t p = 0; p < layup.plies.size(); ++p) {
+    if (layup.plies[p].resting) continue;
+    const PlyBound of = bound_of(layup, touching, p);
+    double dt = std::min(of.step_with_gain(layup.time_step_gain, layup.plies[p].lanczos_contacts),
                          of.elements.step());
     if (of.contacts.omega2 > 0.0) dt = std::min(dt, of.contacts.step());
     if (bound.ply < 0 || !(dt >= bound.dt))
       bound = {dt, of.elements.omega2 + of.contacts.omega2, static_cast<int>(p),
-               s.plies[p].bound.triangle};
+               layup.plies[p].bound.triangle};
   }
   return bound;
 }
@@ -93,7 +92,7 @@ void update_stable_step(Scene& s, ThreadPool& pool) {
   });
   if (!lanczos_due) return;
   s.next_lanczos = s.step + lanczos_interval;
-  renew_rows(s, pool);
+  renew_rows(s, s.ply_pairs, pool);
   const ContactRows touching = contact_rows(s, pool);
   double dt = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < s.plies.size(); ++p) {

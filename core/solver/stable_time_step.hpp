@@ -35,7 +35,7 @@ struct StepBound {
 /// The stable time step from PlyCache::bound, the gain, and the contacts at their present
 /// positions: those that are closed or within Scene::bound_margin of closing. step_factor covers
 /// their sliding until the next update.
-StepBound stable_step(const Scene& scene, const ContactRows& touching);
+StepBound stable_step(const Layup& layup, const ContactRows& touching);
 
 /// Bound of omega^2, 1/s^2, of the elements and the bending of a ply.
 double element_omega2(const PlyBody& ply);

@@ -7,7 +7,6 @@
 #include "core/solver/follow_folds.hpp"
 #include "core/solver/follow_temperature.hpp"
 #include "core/solver/follow_thickness.hpp"
-#include "core/solver/force_kinds.hpp"
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/pass_through.hpp"
 #include "core/solver/prescribed_motion.hpp"
@@ -30,11 +29,12 @@ constexpr int elements_every = 200, contacts_every = 50;
 
 /// Moves driven tools to their positions at scene.time, and gives all their temperatures. Pushed
 /// tools are moved when their forces are computed; here their force is set.
-void move_tools(Scene& s) {
-  for (std::size_t i = 0; i < s.tools.size(); ++i) {
-    ToolState& t = s.tools[i];
-    t.body.temperature = tool_temperature(s.data, s.data.tools[i], s.time * s.data.process_time());
-    const double now = motion_at(s.data.tools[i], s.time, s.data.solver.duration);
+void move_tools(const Layup& layup, std::vector<ToolState>& tools) {
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    ToolState& t = tools[i];
+    t.body.temperature =
+        tool_temperature(layup.data, layup.data.tools[i], layup.time * layup.data.process_time());
+    const double now = motion_at(layup.data.tools[i], layup.time, layup.data.solver.duration);
     if (t.body.force_controlled) {
       t.body.force = now;
       continue;
@@ -47,26 +47,25 @@ void move_tools(Scene& s) {
 
 /// Searches for contacts if bodies have moved by more than the skin allows for; `searched` says so.
 std::optional<Stop> search_if_due(Scene& s, ThreadPool& pool, bool& searched) {
-  searched = !track_displacements(s);
+  searched = !track_displacements(s, s.tools);
   if (!searched) return std::nullopt;
   if (auto stop = find_not_finite(s)) return stop;
   search_contacts(s, pool);
   return std::nullopt;
 }
 
-void filter_forces(Scene& s) {
-  const double tau = filter_share * s.data.solver.duration;
-  for (ToolState& t : s.tools)
-    t.filter.add(t.force, s.dt, tau);
+void filter_forces(std::vector<ToolState>& tools, double dt, double duration) {
+  for (ToolState& t : tools)
+    t.filter.add(t.force, dt, filter_share * duration);
 }
 
 std::optional<Stop> find_faults(const Scene& s) {
   std::optional<Stop> fault;
-  each_kind([&]<class K>() {
-    if (!fault) fault = K::fault(s);
+  each_kind(s, [&](const auto& kind) {
+    if (!fault) fault = kind.fault(s);
   });
   if (fault) return fault;
-  if (auto stop = find_pass_through(s)) return stop;
+  if (auto stop = find_pass_through(s, s.tools, s)) return stop;
   return find_squeezed(s);
 }
 
@@ -105,30 +104,30 @@ void start(Scene& s, ThreadPool& pool) {
 
 std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   bool searched = false;
-  move_tools(s);
-  raise_pretension(s, pool);
+  move_tools(s, s.tools);
+  raise_pretension(s, s.group_blocks, pool);
   update_thickness(s, pool);
   update_temperatures(s, pool);
   if (auto stop = search_if_due(s, pool, searched)) return stop;
   const bool due = searched || s.step % elements_every == 0;
   if (due) update_stable_step(s, pool);
-  follow_folds(s, pool, searched);
-  bear_vacuums(s);
+  follow_folds(s, s, pool, searched);
+  bear_vacuums(s, s.ply_pairs);
   element_and_contact_forces(s, pool);
-  filter_forces(s);
+  filter_forces(s.tools, s.dt, s.data.solver.duration);
   if (due || s.step % contacts_every == 0 ||
-      largest_displacement(s) - s.bound_displacement > 0.5 * s.bound_margin)
+      largest_displacement(s, s.tools) - s.bound_displacement > 0.5 * s.bound_margin)
     renew_stable_step(s, pool);
   else if (contacts_deepened(s))
     renew_deepened_step(s, pool);
   set_step(s);
   if (auto stop = find_faults(s)) return stop;
-  prescribe_nodes(s);
+  prescribe_nodes(s, s);
   return std::nullopt;
 }
 
 void move_plies(Scene& s, ThreadPool& pool) {
-  const MassLoads loads = mass_loads(s);
+  const MassLoads loads = mass_loads(s.data);
   pool.run(static_cast<int>(s.node_blocks.size()), [&](int i) {
     const auto b = static_cast<std::size_t>(i);
     Block& block = s.node_blocks[b];
@@ -138,7 +137,7 @@ void move_plies(Scene& s, ThreadPool& pool) {
   });
   for (const NodeSums& n : s.node_sums)
     s.mass_damping_work += n.damping;
-  each_kind([&]<class K>() { K::end_step(s); });
+  each_kind(s, [&](auto& kind) { kind.end_step(s); });
   s.dt = s.next_dt;
   s.time += s.dt;
   ++s.step;

@@ -3,7 +3,6 @@
 
 #include "base/format.hpp"
 #include "contact/intersections.hpp"
-#include "core/solver/force_kinds.hpp"
 #include "core/solver/limit_pressure.hpp"
 
 #include <algorithm>
@@ -21,8 +20,8 @@ constexpr const char* sheared_remedy =
     "fabric a shear law that rises beyond its locking angle, or let less force or friction hold "
     "the plies";
 
-std::string when(const Scene& s) {
-  return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
+std::string when(const Layup& layup) {
+  return fmt::format("stopped at step {}, time {:.6g} s", layup.step, layup.time);
 }
 
 /// Whether triangles of a ply intersect each other: the side of its faces on which a node is then
@@ -36,55 +35,56 @@ bool crosses_itself(const PlyBody& ply) {
 
 /// What to do about plies that are where they cannot be: `advice`, unless a ply has folded through
 /// itself, which its neighbours feel as well.
-std::string remedy_for(const Scene& s, const char* advice) {
-  const auto folded = std::find_if(s.plies.begin(), s.plies.end(), [](const PlyBody& ply) {
+std::string remedy_for(const Layup& layup, const char* advice) {
+  const auto folded = std::find_if(layup.plies.begin(), layup.plies.end(), [](const PlyBody& ply) {
     return !ply.self_contact && crosses_itself(ply);
   });
-  if (folded == s.plies.end()) return advice;
+  if (folded == layup.plies.end()) return advice;
   return fmt::format("ply {} has folded through itself: set contact.self = \"on\"", folded->name);
 }
 
 /// What a ply whose triangles collapse is told besides. shear: degrees.
-std::string why_collapsed(const Scene& s, std::size_t ply, double shear) {
-  if (const std::string blown = beyond_limit_pressure(s, ply); !blown.empty()) return "; " + blown;
-  const bool yarns = !s.plies[ply].membrane.families.empty();
+std::string why_collapsed(const Layup& layup, std::size_t ply, double shear) {
+  if (const std::string blown = beyond_limit_pressure(layup, ply); !blown.empty())
+    return "; " + blown;
+  const bool yarns = !layup.plies[ply].membrane.families.empty();
   return yarns && shear >= sheared_too_far ? sheared_remedy : "";
 }
 
 } // namespace
 
-std::optional<Stop> find_not_finite(const Scene& s) {
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    const PlyBody& ply = s.plies[p];
+std::optional<Stop> find_not_finite(const Layup& layup) {
+  for (std::size_t p = 0; p < layup.plies.size(); ++p) {
+    const PlyBody& ply = layup.plies[p];
     for (std::size_t n = 0; n < ply.x.size(); ++n)
       if (!ply.x[n].allFinite() || ply.x[n].cwiseAbs().maxCoeff() > furthest_place ||
           ply.motion[n].cwiseAbs().maxCoeff() > furthest_place) {
-        const std::string blown = beyond_limit_pressure(s, p);
+        const std::string blown = beyond_limit_pressure(layup, p);
         return Stop{fmt::format(
             "{}: ply {}, node {}: position is not finite, or a thousand "
             "kilometres away; {}",
-            when(s), ply.name, n,
+            when(layup), ply.name, n,
             blown.empty() ? "a smaller solver.step_factor or more damping may help" : blown)};
       }
   }
   return std::nullopt;
 }
 
-std::optional<Stop> find_fault(const Scene& s) {
+std::optional<Stop> find_fault(const PlyContacts& contacts, const Layup& layup) {
   const PlyContact* found = nullptr;
-  each_pass(s, [&](const PlyContact& pass) {
+  each_pass(contacts, [&](const PlyContact& pass) {
     if (!found && pass.contact.fault.node >= 0) found = &pass;
   });
   if (!found) return std::nullopt;
   const ContactFault& fault = found->contact.fault;
-  const PlyBody &slave = s.plies[at(found->slave)], &master = s.plies[at(found->master)];
+  const PlyBody &slave = layup.plies[at(found->slave)], &master = layup.plies[at(found->master)];
   return Stop{fmt::format(
       "{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm apart, thickness "
       "{:.3g} mm; {}",
-      when(s), slave.name, fault.node, master.name, fault.face, fault.distance,
+      when(layup), slave.name, fault.node, master.name, fault.face, fault.distance,
       found->contact.distance,
-      remedy_for(s, "give the stack more room between the tools, a slower stroke, or a smaller "
-                    "solver.step_factor"))};
+      remedy_for(layup, "give the stack more room between the tools, a slower stroke, or a smaller "
+                        "solver.step_factor"))};
 }
 
 std::optional<Stop> find_squeezed(const Scene& s) {
@@ -106,9 +106,9 @@ std::optional<Stop> find_squeezed(const Scene& s) {
                                         "stroke, or a pushed tool less force"))};
 }
 
-std::optional<Stop> find_collapsed(const Scene& s) {
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    const PlyBody& ply = s.plies[p];
+std::optional<Stop> find_collapsed(const Layup& layup) {
+  for (std::size_t p = 0; p < layup.plies.size(); ++p) {
+    const PlyBody& ply = layup.plies[p];
     for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e) {
       const AxesState f = axes_state(ply.membrane, ply.x, static_cast<int>(e));
       if (!collapsed(f)) continue;
@@ -116,8 +116,8 @@ std::optional<Stop> find_collapsed(const Scene& s) {
       const auto [along, across] = axes_words(ply.membrane.fabric);
       return Stop{fmt::format("{}: ply {}, triangle {} has collapsed: stretch {:.3g} along {}, "
                               "{:.3g} {}, sheared by {:.3g} degrees{}",
-                              when(s), ply.name, e, f.lambda1, along, f.lambda2, across, shear,
-                              why_collapsed(s, p, shear))};
+                              when(layup), ply.name, e, f.lambda1, along, f.lambda2, across, shear,
+                              why_collapsed(layup, p, shear))};
     }
   }
   return std::nullopt;

@@ -14,16 +14,16 @@ namespace plyform {
 constexpr double furthest_place = 1e9;
 
 /// A position that is not finite, or further away than `furthest_place`; or a way in one step.
-std::optional<Stop> find_not_finite(const Scene& s);
+std::optional<Stop> find_not_finite(const Layup& layup);
 
 /// A node of a ply on the other side of another ply, or beyond the depth limit of contact.
-std::optional<Stop> find_fault(const Scene& s);
+std::optional<Stop> find_fault(const PlyContacts& contacts, const Layup& layup);
 
 /// Contacts that close so fast that they reduce the time step below 1e-4 of the longest one: a body
 /// is driven into something that cannot yield.
 std::optional<Stop> find_squeezed(const Scene& s);
 
 /// A triangle that has collapsed (core/ply/membrane.hpp, collapsed).
-std::optional<Stop> find_collapsed(const Scene& s);
+std::optional<Stop> find_collapsed(const Layup& layup);
 
 } // namespace plyform

@@ -6,7 +6,7 @@
 namespace plyform {
 
 StiffnessOperator::StiffnessOperator(const Scene& s, double dt)
-    : s_(s), products_(products_of<Forces>(s, {dt * dt, 2.0 * dt})) {
+    : s_(s), products_(ProductsOf<Forces>::make(s, {dt * dt, 2.0 * dt})) {
   for (const PlyBody& ply : s.plies) {
     first_.push_back(size_);
     y_.emplace_back();
@@ -17,7 +17,7 @@ StiffnessOperator::StiffnessOperator(const Scene& s, double dt)
     }
     size_ += static_cast<Eigen::Index>(3 * ply.x.size());
     y_.back().resize(ply.x.size());
-    each_kind([&]<class K>() { K::add_bound_of_rest(ply, bounded); });
+    each_kind_of([&]<class K>() { K::add_bound_of_rest(ply, bounded); });
     bounded_.push_back(bounded.stability_lhs(dt));
   }
   f_ = y_;

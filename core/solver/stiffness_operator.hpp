@@ -6,7 +6,6 @@
 #pragma once
 
 #include "base/thread_pool.hpp"
-#include "core/solver/force_kinds.hpp"
 #include "core/solver/scene.hpp"
 
 #include <Eigen/Core>
@@ -14,6 +13,17 @@
 #include <vector>
 
 namespace plyform {
+
+/// The products of the kinds of a list.
+template <class Kinds>
+struct ProductsOf;
+template <class... K>
+struct ProductsOf<std::tuple<K...>> {
+  using Type = std::tuple<typename K::Product...>;
+  static Type make(const Scene& s, const TangentFactors& factors) {
+    return Type{typename K::Product(static_cast<const K&>(s), s, factors)...};
+  }
+};
 
 class StiffnessOperator {
 public:
@@ -40,7 +50,7 @@ private:
   void gather(std::size_t p, Eigen::VectorXd& w);
 
   const Scene& s_;
-  ProductsOf<Forces> products_;
+  ProductsOf<Forces>::Type products_;
   Eigen::Index size_ = 0;
   std::vector<double> bounded_; ///< per ply, the bounded parts' share of the left side of (S)
   std::vector<Eigen::Index> first_;

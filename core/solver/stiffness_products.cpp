@@ -3,13 +3,15 @@
 
 #include "core/solver/attached_motion.hpp"
 #include "core/solver/contact_rows.hpp"
+#include "core/solver/force_kinds.hpp"
 
 #include <algorithm>
 
 namespace plyform {
 
-ElementProduct::ElementProduct(const Scene& s, const TangentFactors& factors) {
-  for (const PlyBody& ply : s.plies) {
+ElementProduct::ElementProduct(const ElementForces&, const Layup& layup,
+                               const TangentFactors& factors) {
+  for (const PlyBody& ply : layup.plies) {
     std::unique_ptr<YarnStiffness>& yarns = yarns_.emplace_back();
     if (!ply.resting && ply.membrane.fabric.has_yarns())
       yarns = std::make_unique<YarnStiffness>(
@@ -22,15 +24,17 @@ void ElementProduct::add_on_ply(std::size_t ply, const PerPly& y, PerPly& f) con
 }
 
 void BoundaryProduct::add_between(const PerPly& y, PerPly& f) const {
-  add_attachment_forces(scene_, stiffness_, y, f);
+  add_attachment_forces(boundaries_, layup_, stiffness_, y, f);
 }
 
-ToolProduct::ToolProduct(const Scene& s, const TangentFactors& factors) {
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+ToolProduct::ToolProduct(const ToolContacts& contacts, const Layup& layup,
+                         const TangentFactors& factors) {
+  for (std::size_t p = 0; p < layup.plies.size(); ++p) {
     std::vector<ContactTangent>& on_ply = on_ply_.emplace_back();
-    if (s.plies[p].resting) continue;
-    for (const ToolState& tool : s.tools)
-      append_tangents(tool.contacts[p], s.plies[p].state(), s.bound_margin, factors, on_ply);
+    if (layup.plies[p].resting) continue;
+    for (const ToolState& tool : contacts.tools)
+      append_tangents(tool.contacts[p], layup.plies[p].state(), layup.bound_margin, factors,
+                      on_ply);
   }
 }
 
@@ -38,17 +42,18 @@ void ToolProduct::add_on_ply(std::size_t ply, const PerPly& y, PerPly& f) const 
   add_tangent_forces(on_ply_[ply], y[ply], y[ply], f[ply], f[ply]);
 }
 
-PlyProduct::PlyProduct(const Scene& s, const TangentFactors& factors) {
-  for (const PlyPair& pair : s.ply_pairs) {
+PlyProduct::PlyProduct(const PlyContacts& contacts, const Layup& layup,
+                       const TangentFactors& factors) {
+  for (const PlyPair& pair : contacts.ply_pairs) {
     Pair to{at(pair.a), at(pair.b), {}, {}, {}, {}};
-    const PlyBody &a = s.plies[to.a], &b = s.plies[to.b];
+    const PlyBody &a = layup.plies[to.a], &b = layup.plies[to.b];
     for (const PlyContact& pass : pair.passes) {
       const bool up = pass.slave == pair.a;
       const PlyBody &slave = up ? a : b, &master = up ? b : a;
       append_tangents(pass.contact, slave.state(), master.state(), master.membrane.triangles,
-                      s.bound_margin, factors, up ? to.up : to.down);
+                      layup.bound_margin, factors, up ? to.up : to.down);
     }
-    append_tangents(pair.edges.contact, a.state(), b.state(), edge_margin(s), factors, to.up);
+    append_tangents(pair.edges.contact, a.state(), b.state(), edge_margin(layup), factors, to.up);
     if (to.up.empty() && to.down.empty()) continue;
     to.force_a.resize(a.x.size());
     to.force_b.resize(b.x.size());

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "contact/forces/contact_tangent.hpp"
-#include "core/solver/scene.hpp"
+#include "core/solver/layup.hpp"
 
 #include <memory>
 #include <vector>
@@ -14,10 +14,16 @@ namespace plyform {
 
 using PerPly = std::vector<std::vector<Vec3>>;
 
+struct BoundaryForces;
+struct ElementForces;
+struct NoForce;
+struct PlyContacts;
+struct ToolContacts;
+
 /// Of a kind that is only bounded, or has none.
 struct NoProduct {
   NoProduct() = default;
-  NoProduct(const Scene&, const TangentFactors&) {}
+  NoProduct(const NoForce&, const Layup&, const TangentFactors&) {}
   /// Adds the product on one ply, which others do not feel.
   void add_on_ply(std::size_t, const PerPly&, PerPly&) const {}
   /// Tasks beside those of plies, into arrays of its own.
@@ -32,7 +38,7 @@ struct NoProduct {
 /// Yarns, taut.
 class ElementProduct : public NoProduct {
 public:
-  ElementProduct(const Scene& scene, const TangentFactors& factors);
+  ElementProduct(const ElementForces&, const Layup& layup, const TangentFactors& factors);
   void add_on_ply(std::size_t ply, const PerPly& y, PerPly& f) const;
 
 private:
@@ -42,19 +48,21 @@ private:
 /// Springs and the drives of grippers.
 class BoundaryProduct : public NoProduct {
 public:
-  BoundaryProduct(const Scene& scene, const TangentFactors& factors)
-      : scene_(scene), stiffness_(factors.stiffness) {}
+  BoundaryProduct(const BoundaryForces& boundaries, const Layup& layup,
+                  const TangentFactors& factors)
+      : boundaries_(boundaries), layup_(layup), stiffness_(factors.stiffness) {}
   void add_between(const PerPly& y, PerPly& f) const;
 
 private:
-  const Scene& scene_;
+  const BoundaryForces& boundaries_;
+  const Layup& layup_;
   double stiffness_;
 };
 
 /// Contacts of tools, sticking.
 class ToolProduct : public NoProduct {
 public:
-  ToolProduct(const Scene& scene, const TangentFactors& factors);
+  ToolProduct(const ToolContacts& contacts, const Layup& layup, const TangentFactors& factors);
   void add_on_ply(std::size_t ply, const PerPly& y, PerPly& f) const;
 
 private:
@@ -64,7 +72,7 @@ private:
 /// Contacts of plies, sticking: both passes of node-to-face contact, and edge-edge contact.
 class PlyProduct : public NoProduct {
 public:
-  PlyProduct(const Scene& scene, const TangentFactors& factors);
+  PlyProduct(const PlyContacts& contacts, const Layup& layup, const TangentFactors& factors);
   int tasks() const { return static_cast<int>(pairs_.size()); }
   void run(int task, const PerPly& y);
   void gather(std::size_t ply, PerPly& f) const;

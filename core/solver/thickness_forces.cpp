@@ -13,7 +13,7 @@
 // when a ply is sheared between closed tools: pressed cloth resists shear. Forces and moments of a
 // triangle cancel.
 #include "core/solver/follow_thickness.hpp"
-#include "core/solver/force_kinds.hpp"
+#include "core/solver/scene.hpp"
 
 namespace plyform {
 namespace {
@@ -48,10 +48,11 @@ void add_squeeze(const PlyPlyContact& contact, const PlyBody& slave, const PlyBo
   }
 }
 
-bool is_pressed(const Scene& s, std::size_t p) {
-  for (const ToolState& t : s.tools)
+bool is_pressed(const std::vector<ToolState>& tools, const std::vector<PlyPair>& pairs,
+                std::size_t p) {
+  for (const ToolState& t : tools)
     if (t.contacts[p].sums.touching > 0) return true;
-  for (const PlyPair& pair : s.ply_pairs)
+  for (const PlyPair& pair : pairs)
     if ((at(pair.a) == p || at(pair.b) == p) && pair.loaded) return true;
   return false;
 }
@@ -98,15 +99,15 @@ void ThicknessForces::finish(Scene& s, ThreadPool& pool) {
   if (!s.any_thickness_acts) return;
   pool.run(static_cast<int>(s.plies.size()), [&s](int p) {
     PlyBody& ply = s.plies[at(p)];
-    ply.pressed = ply.thickness_acts && !ply.resting && is_pressed(s, at(p));
+    ply.pressed = ply.thickness_acts && !ply.resting && is_pressed(s.tools, s.ply_pairs, at(p));
     if (!ply.pressed) return;
     find_squeeze(s, at(p));
     spread(ply);
   });
 }
 
-void ThicknessForces::list_arrays(Scene& s) {
-  for (PlyBody& ply : s.plies)
+void ThicknessForces::list_arrays(Layup& layup) {
+  for (PlyBody& ply : layup.plies)
     if (ply.pressed) ply.nodal_forces.push_back(&ply.spread);
 }
 

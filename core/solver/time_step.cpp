@@ -2,7 +2,6 @@
 #include "core/solver/time_step.hpp"
 
 #include "core/solver/displacements.hpp"
-#include "core/solver/force_kinds.hpp"
 #include "core/solver/mass_scaling.hpp"
 #include "core/solver/stable_time_step.hpp"
 
@@ -19,23 +18,23 @@ constexpr double largest_growth = 1.25;
 /// Updates masses, the stable time step, and the depths of contacts with tools for which it holds.
 void use_rows(Scene& s, ThreadPool& pool) {
   const ContactRows touching = contact_rows(s, pool);
-  if (s.step % mass_scaling_interval == 0) scale_masses(s, touching);
+  if (s.step % mass_scaling_interval == 0) scale_masses(s, s.tools, touching);
   s.stable_dt = s.data.solver.step_factor * stable_step(s, touching).dt;
-  ToolContacts::each_contact(s, [](ToolPlyContact& contact, const auto&) {
-    contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
-  });
+  for (ToolState& tool : s.tools)
+    for (ToolPlyContact& contact : tool.contacts)
+      contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
 }
 
 } // namespace
 
 void renew_stable_step(Scene& s, ThreadPool& pool) {
-  renew_rows(s, pool);
-  s.bound_displacement = largest_displacement(s);
+  renew_rows(s, s.ply_pairs, pool);
+  s.bound_displacement = largest_displacement(s, s.tools);
   use_rows(s, pool);
 }
 
 void renew_deepened_step(Scene& s, ThreadPool& pool) {
-  renew_deepened_rows(s, pool);
+  renew_deepened_rows(s, s.ply_pairs, pool);
   use_rows(s, pool);
 }
 

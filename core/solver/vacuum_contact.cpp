@@ -65,32 +65,30 @@ double largest_vacuum(const Case& data, int a, int b) {
   return most;
 }
 
-void bear_vacuums(Scene& s) {
-  const std::vector<Enclosure> enclosures = enclosures_of(s.data);
+void bear_vacuums(Layup& layup, std::vector<PlyPair>& pairs) {
+  const std::vector<Enclosure> enclosures = enclosures_of(layup.data);
   if (enclosures.empty()) return;
   for (const Enclosure& e : enclosures)
     for (const int p : {e.lower, e.upper}) {
-      s.plies[at(p)].borne_load.assign(s.plies[at(p)].x.size(), 0.0);
-      renew_area(s.plies[at(p)]);
+      layup.plies[at(p)].borne_load.assign(layup.plies[at(p)].x.size(), 0.0);
+      renew_area(layup.plies[at(p)]);
     }
-  for (PlyPair& pair : s.ply_pairs) {
+  for (PlyPair& pair : pairs) {
     if (pair.passes[0].contact.vacuum_gap <= 0.0) continue;
     double q = 0.0;
     for (const Enclosure& e : enclosures)
-      if (is_between(e, pair.a, pair.b)) q += vacuum_at(s.data, e, s.time);
+      if (is_between(e, pair.a, pair.b)) q += vacuum_at(layup.data, e, layup.time);
     for (PlyContact& pass : pair.passes)
-      bear(pass.contact, q, pass.slave == pair.a, s.plies[at(pass.slave)],
-           s.plies[at(pass.master)]);
+      bear(pass.contact, q, pass.slave == pair.a, layup.plies[at(pass.slave)],
+           layup.plies[at(pass.master)]);
   }
 }
 
-double vacuum_stiffness(const Scene& s, std::size_t ply) {
-  double most = 0.0;
-  for (const PlyPair& pair : s.ply_pairs)
-    if (at(pair.a) == ply || at(pair.b) == ply)
-      if (const PlyPlyContact& contact = pair.passes[0].contact; contact.vacuum_gap > 0.0)
-        most += 2.0 * contact.law.stiffness; // of both passes
-  return most;
+void note_vacuum_stiffness(const std::vector<PlyPair>& pairs, std::vector<PlyBody>& plies) {
+  for (const PlyPair& pair : pairs)
+    if (const PlyPlyContact& contact = pair.passes[0].contact; contact.vacuum_gap > 0.0)
+      for (const int p : {pair.a, pair.b})
+        plies[at(p)].vacuum_stiffness += 2.0 * contact.law.stiffness; // of both passes
 }
 
 } // namespace plyform

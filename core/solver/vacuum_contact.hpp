@@ -8,7 +8,10 @@
 #pragma once
 
 #include "core/model/case.hpp"
-#include "core/solver/scene.hpp"
+#include "core/solver/contact_state.hpp"
+#include "core/solver/layup.hpp"
+
+#include <vector>
 
 namespace plyform {
 
@@ -18,9 +21,9 @@ double largest_vacuum(const Case& data, int a, int b);
 /// Sets PlyPlyContact::vacuum, PlyCache::borne_load, what (N) leaves out, and area_now of plies
 /// that a vacuum presses on each other, at the present positions. To be called at every step, after
 /// searches and before forces are computed.
-void bear_vacuums(Scene& s);
+void bear_vacuums(Layup& layup, std::vector<PlyPair>& pairs);
 
-/// N/mm^3: the most by which (N) changes on any node of a ply as its gap opens.
-double vacuum_stiffness(const Scene& s, std::size_t ply);
+/// Sets PlyModel::vacuum_stiffness: the most by which (N) changes on any node as its gap opens.
+void note_vacuum_stiffness(const std::vector<PlyPair>& pairs, std::vector<PlyBody>& plies);
 
 } // namespace plyform

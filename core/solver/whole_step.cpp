@@ -7,7 +7,7 @@ namespace plyform {
 
 VelocitiesAtPositions::VelocitiesAtPositions(Scene& scene)
     : scene_(scene), plies_(scene.plies.size()) {
-  const MassLoads loads = mass_loads(scene);
+  const MassLoads loads = mass_loads(scene.data);
   for (std::size_t p = 0; p < plies_.size(); ++p) {
     PlyBody& ply = scene.plies[p];
     OfPly& of = plies_[p];

@@ -20,12 +20,14 @@ import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-HEADERS = ("core/solver/scene.hpp", "core/solver/ply_body.hpp")
+HEADERS = tuple(f"core/solver/{name}.hpp" for name in (
+    "scene", "force_kinds", "contact_state", "layup", "ply_body"))
 # Boxes from top to bottom, column by column.
-COLUMNS = (("SceneModel", "SceneBodies", "SceneWorkspace", "NodeSums"),
-           ("SceneProgress", "BoundaryState", "Block"), ("PlyModel", "PlyState"),
-           ("PlyCache", "PassPlace"), ("ToolLoad", "ToolState", "PlyPair", "PlyContact",
-                                       "PlyEdgeContact"))
+COLUMNS = (("Layup", "SceneModel", "SceneProgress", "SceneWorkspace", "NodeSums", "Block"),
+           ("PlyModel", "PlyState"), ("PlyCache",),
+           ("ElementForces", "ElementState", "BendingForces", "BoundaryForces", "BoundaryState"),
+           ("ToolContacts", "ToolLoad", "ToolState", "PlyContacts", "PlyPair", "PlyContact",
+            "PlyEdgeContact", "PassPlace"))
 UNIT = re.compile(r"(?:of a |the )?((?:N mm|mm/s|mm\^2|1/s\^2|mm|N|s|t|rad)(?=[,:]|$))")
 WIDTH = 54  # characters of a line in a box
 
@@ -74,7 +76,7 @@ def declared(code: str, doc: str) -> list[Member]:
     parts = [code[a + 1:b] for a, b in zip([-1, *cut], [*cut, len(code)])]
     parts = [re.sub(r"\s*=.*", "", part, flags=re.S).strip() for part in parts]
     found = re.fullmatch(r"(.*[\s>*&])(\w+)", parts[0], re.S)
-    if not found or "(" in parts[0]:
+    if not found or "(" in parts[0] or re.match(r"(?:static|using|template)\b", parts[0]):
         return []
     unit = UNIT.match(doc)
     return [Member(name, short(" ".join(found[1].split())), unit[1] if unit else "")
@@ -104,6 +106,7 @@ def members_of(body: str) -> list[Member]:
 
 
 def types_of(text: str) -> dict[str, Type]:
+    """Those of a header; AllOf of a tuple stands for what that lists."""
     types = {}
     for found in re.finditer(r"((?:^///.*\n)*)^struct (\w+)(?: : ([\w, ]+))? \{(\};|(?:.*\n)*?\};)",
                              text, re.M):
@@ -111,6 +114,11 @@ def types_of(text: str) -> dict[str, Type]:
         bases = [base.strip() for base in found[3].split(",")] if found[3] else []
         types[found[2]] = Type(found[2], doc, bases, members_of(found[4].removesuffix("};")))
     return types
+
+
+def all_bases(one: Type, types: dict[str, Type]) -> list[Type]:
+    direct = [types[base] for base in one.bases]
+    return direct + [more for base in direct for more in all_bases(base, types)]
 
 
 def mark_kept(text: str, types: dict[str, Type]) -> None:
@@ -122,8 +130,9 @@ def mark_kept(text: str, types: dict[str, Type]) -> None:
         for place, what in re.findall(r'^  f\("[\w.]+", (?:On::(\w+), )?(.*)\);', found[2], re.M):
             words = re.findall(r"\w+", what)
             one = types[found[1]]
+            whole = [one, *all_bases(one, types)]
             listed |= {one.name, *one.bases}
-            for member in sum((types[base].members for base in one.bases), one.members):
+            for member in [member for part in whole for member in part.members]:
                 if member.name in words:
                     member.kept = True
                     member.place = place if "[]" in member.type else ""
@@ -135,9 +144,11 @@ def mark_kept(text: str, types: dict[str, Type]) -> None:
 
 def read_types(source: Path) -> dict[str, Type]:
     """Those that are reached from Scene."""
-    texts = [(source / header).read_text(encoding="utf-8") for header in HEADERS]
-    types = {name: one for text in texts for name, one in types_of(text).items()}
-    mark_kept("\n".join(texts), types)
+    text = "\n".join((source / header).read_text(encoding="utf-8") for header in HEADERS)
+    for name, listed in re.findall(r"^using (\w+) =\s+std::tuple<([^;]*)>;", text, re.M):
+        text = text.replace(f"AllOf<{name}>", " ".join(listed.split()))
+    types = types_of(text)
+    mark_kept(text, types)
     reached, todo = {}, ["Scene"]
     while todo:
         name = todo.pop(0)

@@ -292,17 +292,17 @@ TEST(Attachments, PullOfASpringIsTheGradientOfItsEnergy) {
   const auto pulls_at = [&](double step) {
     for (const AttachedNode& node : attached.nodes)
       ply.x[node.node] += step * y[0][node.node];
-    pull_springs(s);
+    pull_springs(s, s, s.tools);
     return std::pair{energy(), ply.pull};
   };
   constexpr double h = 1e-5;
-  pull_springs(s);
+  pull_springs(s, s, s.tools);
   const std::vector<Vec3> here = ply.pull;
   const auto [after, pull_after] = pulls_at(h);
   const auto [before, pull_before] = pulls_at(-2.0 * h);
   double work = 0.0, curvature = 0.0, reckoned = 0.0;
   std::vector<std::vector<Vec3>> f(1, std::vector<Vec3>(ply.x.size(), Vec3::Zero()));
-  add_attachment_forces(s, 1.0, y, f);
+  add_attachment_forces(s, s, 1.0, y, f);
   for (const AttachedNode& node : attached.nodes) {
     const Vec3& direction = y[0][node.node];
     work += here[node.node].dot(direction);

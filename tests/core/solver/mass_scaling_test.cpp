@@ -34,7 +34,7 @@ struct Touched {
   }
   void scale() { // until nothing changes
     for (int i = 0; i < 50; ++i)
-      scale_masses(scene, rows);
+      scale_masses(scene, scene.tools, rows);
   }
   double omega2(std::size_t n) const { return rows[0][n].stiffness / scene.plies[0].mass[n]; }
   double added() const {
@@ -48,7 +48,7 @@ TEST(MassScaling, BringsStiffContactsToHalfOfTheElements) {
   PlyBody& ply = t.scene.plies[0];
   for (Vec3& v : ply.velocity)
     v = {0.0, 3.0, 4.0};
-  scale_masses(t.scene, t.rows); // a quarter at a time
+  scale_masses(t.scene, t.scene.tools, t.rows); // a quarter at a time
   EXPECT_DOUBLE_EQ(ply.mass[4], 1.25 * ply.membrane.node_mass[4]);
   t.scale();
   for (std::size_t n = 0; n < 5; ++n)

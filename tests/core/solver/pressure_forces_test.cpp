@@ -31,8 +31,8 @@ void deform(PlyBody& ply) {
 }
 
 std::vector<Vec3> load_on(Scene& s, std::size_t ply) {
-  for (int task = 0; task < PressureForces::tasks(s); ++task)
-    PressureForces::run(s, task);
+  for (int task = 0; task < s.PressureForces::tasks(s); ++task)
+    s.PressureForces::run(s, task);
   return s.plies[ply].load;
 }
 
@@ -203,7 +203,7 @@ TEST(PressureForces, BoundHoldsForTheirStiffness) {
     k.row(i) /= ply.mass[static_cast<std::size_t>(i / 3)];
   const double radius = k.eigenvalues().cwiseAbs().maxCoeff();
   std::vector<ContactRow> rows(ply.x.size());
-  PressureForces::add_rows(s, 1, rows);
+  s.PressureForces::add_rows(s, 1, rows);
   double bound = 0.0;
   for (std::size_t n = 0; n < rows.size(); ++n)
     bound = std::max(bound, rows[n].stiffness / ply.mass[n]);
@@ -212,10 +212,10 @@ TEST(PressureForces, BoundHoldsForTheirStiffness) {
   EXPECT_LT(bound, 10.0 * radius); // no bound of anything
   s.time = 0.0;                    // of what comes, too
   std::vector<ContactRow> ahead(ply.x.size());
-  PressureForces::add_rows(s, 1, ahead);
+  s.PressureForces::add_rows(s, 1, ahead);
   EXPECT_EQ(ahead[0].stiffness, rows[0].stiffness);
   // the product with K has the bound in its place
-  PressureProduct product(s, {2.0, 0.0});
+  PressureProduct product(s, s, {2.0, 0.0});
   PerPly y(2), f(2);
   y[1].assign(ply.x.size(), Vec3(1.0, -2.0, 3.0));
   f[0].assign(s.plies[0].x.size(), Vec3::Zero()), f[1].assign(ply.x.size(), Vec3::Zero());
@@ -247,7 +247,7 @@ TEST(PressureForces, WorkIsWhatThePlyGains) {
   EXPECT_NEAR(e.residual(), 0.0, 1e-6 * work); // all plies are free: it is kinetic
   EXPECT_NEAR(e.kinetic, work, 1e-2 * work);
   EXPECT_EQ(s.plies[0].x, s.plies[0].x0);
-  PressureForces::run(s, 1); // asked twice it is the same
+  s.PressureForces::run(s, 1); // asked twice it is the same
   EXPECT_EQ(current_energies(s, pool).external, work);
 }
 
@@ -277,7 +277,7 @@ TEST(PressureForces, GoOnFromACheckpointAndGoBack) {
 TEST(PressureForces, SayWhatTheyAreBeforeARun) {
   const Scene s = make_scene(pressed(MeshKind::diagonal, {{0.5, 0.02}}));
   std::vector<std::string> lines;
-  PressureForces::describe(s, lines);
+  s.PressureForces::describe(s, lines);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0], "pressure below ply ply2: 0.02 N/mm2 at most, 24 N on it as it lies");
 }

@@ -96,14 +96,14 @@ TEST(ContactRows, OnlyOfPairsThatHaveDeepenedAreComputedAnew) {
       point.gap = -0.5 * contact.law.max_depth;
     contact.sums.penetration = 0.5 * contact.law.max_depth;
   }
-  renew_deepened_rows(s, pool);
+  renew_deepened_rows(s, s.ply_pairs, pool);
   EXPECT_GT(sum(first.rows_a), 1.5 * sum(before[0].rows_a));
   EXPECT_GT(sum(first.rows_b), 1.5 * sum(before[0].rows_b));
   for (const PlyContact& pass : first.passes)
     EXPECT_GT(pass.contact.renew_depth, pass.contact.sums.penetration);
   for (std::size_t p = 1; p < before.size(); ++p)
     EXPECT_EQ(sum(s.ply_pairs[p].rows_a), sum(before[p].rows_a)) << p;
-  renew_rows(s, pool); // nothing else had changed
+  renew_rows(s, s.ply_pairs, pool); // nothing else had changed
   for (std::size_t p = 1; p < before.size(); ++p)
     EXPECT_EQ(sum(s.ply_pairs[p].rows_a), sum(before[p].rows_a)) << p;
 }
