@@ -307,17 +307,14 @@ void check(const Scene& s, const PlyPair& pair) {
          "stiffnesses between plies");
 }
 
-void check_sums(const SceneProgress& p) {
+void check_sums(const SceneProgress& p, const ElementState& elements, std::size_t blocks) {
   expect(p.bound_displacement >= 0.0 && sound(p.bound_displacement) && p.time_step_gain >= 1.0 &&
              sound(p.time_step_gain) && sound(p.start_energy) && sound(p.mass_damping_work) &&
              sound(p.mass_scaling_work) && p.largest_added_mass >= 0.0 &&
              sound(p.largest_added_mass),
          "sums of the run");
-}
-
-void check_elements(const Scene& s, const ElementState& elements) {
   for (const std::vector<double>* sums : {&elements.group_sums, &elements.torn_sums})
-    expect(sums->size() == s.group_blocks.size() && all_sound(*sums), "sums of the elements");
+    expect(sums->size() == blocks && all_sound(*sums), "sums of the elements");
 }
 
 void check_progress(const Scene& s) {
@@ -335,8 +332,7 @@ void check_progress(const Scene& s) {
          "the time");
   for (const double until : {s.cooled_until, s.tightened_until})
     expect(until >= 0.0 && until <= s.time, "the time of what follows it");
-  check_sums(s);
-  check_elements(s, s);
+  check_sums(s, s, s.group_blocks.size());
   for (const NodeSums& n : s.node_sums)
     expect(sound(n.damping) && sound(n.moved2) && sound(n.step2), "sums of the nodes");
 }
@@ -352,8 +348,7 @@ void check(const Scene& s, const Snapshot& good, const std::vector<ArraySizes>& 
   expect(good.plies.size() == s.plies.size() && good.boundaries.size() == s.boundaries.size() &&
              good.tool_motions.size() == s.tools.size() && good.tool_loads.size() == s.tools.size(),
          "the last good state");
-  check_sums(then);
-  check_elements(s, good.elements);
+  check_sums(then, good.elements, s.group_blocks.size());
   for (std::size_t p = 0; p < good.plies.size(); ++p)
     check(good.plies[p], made[p]);
   expect(all_sound(good.boundaries) && all_sound(good.tool_motions) && all_sound(good.tool_loads),
