@@ -328,7 +328,6 @@ LawChoice choose_among(const Problem& problem, const std::vector<ShearForm>& for
   for (Candidate& candidate : candidates)
     candidate.valid = gives_laws(candidate, problem);
   std::vector<double> chance(candidates.size(), 0.0);
-  constexpr double significant = 1e-3;
   constexpr Index few = 30; // rows: too few for a test, and cross-validation is quick
   const bool usual_is_law = free && candidates.front().valid;
   bool tested = disturbed.any || (usual_is_law && fewest >= few);
@@ -336,7 +335,7 @@ LawChoice choose_among(const Problem& problem, const std::vector<ShearForm>& for
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (!free || candidates[c].form == usual) continue;
     chance[c] = chance_of(candidates[c], disturbed, problem);
-    other = other || (chance[c] < significant && candidates[c].valid);
+    other = other || (chance[c] < by_chance && candidates[c].valid);
   }
   if (!other && (usual_is_law || disturbed.any))
     return {usual, {}, "no other law follows the rows better by more than chance"};
@@ -345,7 +344,7 @@ LawChoice choose_among(const Problem& problem, const std::vector<ShearForm>& for
   std::vector<const Candidate*> counting;
   for (std::size_t c = 0; c < candidates.size(); ++c)
     if (candidates[c].valid &&
-        (!free || !tested || candidates[c].form == usual || chance[c] < significant))
+        (!free || !tested || candidates[c].form == usual || chance[c] < by_chance))
       counting.push_back(&candidates[c]);
   if (counting.empty())
     return {forms.front(), candidates.front().knots, "no law's torque rises everywhere"};

@@ -88,9 +88,8 @@ bool check_disturbances(const Curve& curve, const LinearLaw& law, const LoadRows
       fmt::format("the rows show {}: with it residuals are {:.2g} times as large; without, the "
                   "law is up to {:.2g} % wrong",
                   what, std::sqrt(squares), 100.0 * std::min(best.change, 10.0));
-  constexpr double sure = 1e-6; // a curve that is good is not to be refused by chance
-  const bool worthless =
-      best.change > useless && best.chance < sure && best.is_no_shape && best.kind != Kind::stretch;
+  const bool worthless = best.change > useless && best.chance < surely_not_chance &&
+                         best.is_no_shape && best.kind != Kind::stretch;
   if (!worthless || options.doubtful) {
     diagnostics.warning(place_of(curve), rule + "; " + remedy);
     return true;

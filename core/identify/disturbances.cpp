@@ -9,7 +9,6 @@
 namespace plyform {
 namespace {
 
-constexpr double by_chance = 1e-3; ///< probability of a find where there is nothing
 constexpr double least_change = 0.02;
 constexpr double least_rms = 1e-4; ///< residuals below are those of the digits of a file
 constexpr double indistinct = 4.0; ///< t^2 of two that the rows do not tell apart

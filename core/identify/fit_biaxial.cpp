@@ -156,8 +156,7 @@ std::optional<FoundZero> find_zero(const BiaxialSolved& plain) {
   best->change = change_between(plain, best->with);
   best->zero.amount = s.p[s.p.size() - 1];
   best->zero.limits = s.limits(s.p.size() - 1);
-  constexpr double rare = 1e-3;
-  if (!(best->chance < rare && best->change > noisy)) return std::nullopt;
+  if (!(best->chance < by_chance && best->change > noisy)) return std::nullopt;
   return best;
 }
 
@@ -185,9 +184,8 @@ bool judge_zeros(BiaxialSolved& solved, const BiaxialOptions& options, Diagnosti
                     zero_words(found->zero, curves), 100.0 * found->change);
     const std::string remedy =
         "set strains to 0 where the specimen lies without load; --toe fit takes it off";
-    constexpr double sure = 1e-6;
     const Place at = place_of(curves[found->zero.file.value_or(0)]);
-    if (found->change <= useless || found->chance > sure || options.doubtful) {
+    if (found->change <= useless || found->chance > surely_not_chance || options.doubtful) {
       diagnostics.warning(at, rule + "; " + remedy);
       return true;
     }

@@ -10,7 +10,6 @@
 namespace plyform {
 namespace {
 
-constexpr double pull_out_gain = 1e-2;
 constexpr int most_hersey_points = 8;
 
 /// Weights of the points of a curve at x, straight between them.
@@ -60,7 +59,7 @@ HerseyCurve chosen_curve(const std::vector<double>& x, const std::vector<double>
                  noise = next.residuals.squaredNorm() / freedom;
     constexpr double resolved = 1e-6; // relative: less is rounding
     if (best.residuals.squaredNorm() < resolved * resolved) break;
-    if (gain > 0.0 && fisher_beyond(gain / noise, extra, freedom) < pull_out_gain)
+    if (gain > 0.0 && fisher_beyond(gain / noise, extra, freedom) < by_chance)
       best = std::move(next);
   }
   return best;

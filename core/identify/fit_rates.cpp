@@ -14,7 +14,6 @@ namespace {
 
 constexpr double least_ratio = 2.0;   // of speeds
 constexpr double least_warming = 3.0; // K, of temperatures that E can be found from
-constexpr double rated_gain = 1e-3;   // of one coefficient more
 constexpr int most_viscous = 3;
 
 std::vector<double> elastic_of(const RatedLaw& s, const RatedRows& all) {
@@ -68,7 +67,7 @@ RatedLaw chosen_size(const RatedRows& all, const FitOptions& options, int viscou
     RatedLaw next = solve_rising(all, {elastic, more}, fixed, form);
     const double freedom = freedom_of(next.fit.residuals, next.unknowns());
     const double chance = chance_of_gain(s.fit.squares, next.fit.squares, freedom);
-    if (!(chance < rated_gain) || !viscosity_holds(next)) break;
+    if (!(chance < by_chance) || !viscosity_holds(next)) break;
     s = std::move(next);
     why = fmt::format("a viscosity that depends on the angle: chance would gain as much once in "
                       "{:.0f}",
@@ -107,7 +106,7 @@ RatedLaw chosen(const RatedRows& all, const FitOptions& options, const RatedOpti
   if (!bear_two) return arrhenius;
   const double chance = chance_of_gain(arrhenius.fit.squares, wlf.fit.squares,
                                        freedom_of(wlf.fit.residuals, wlf.unknowns()));
-  if (!(chance < rated_gain)) return arrhenius;
+  if (!(chance < by_chance)) return arrhenius;
   fit.flow_why = fmt::format("chance would gain as much over Arrhenius once in {:.0f}",
                              std::min(1e9, 1.0 / std::max(chance, 1e-9)));
   return wlf;

@@ -10,7 +10,7 @@
 namespace plyform {
 namespace {
 
-constexpr double most_strain = 10.0, told_within = 0.1, gain_by_chance = 1e-3;
+constexpr double most_strain = 10.0, told_within = 0.1;
 constexpr std::size_t least_rows = 4;
 
 /// s of each strain x per constant: columns mu, or C10 and C01.
@@ -184,14 +184,14 @@ void choose_rubber(RubberLaw wanted, const LinearFit& mooney, double chance, Rub
   const std::string constants =
       fmt::format("C10 = {:.3g}, C01 = {:.3g} +- {:.2g} N/mm2", mooney.k[0], c01, limits);
   const double widest = std::max(result.by_both.uniaxial, result.by_both.equibiaxial);
-  const bool told = chance < gain_by_chance && widest <= told_within;
+  const bool told = chance < by_chance && widest <= told_within;
   const bool stable = mooney.k[0] >= 0.0 && c01 >= 0.0;
   result.neo_hookean =
       wanted == RubberLaw::neo_hookean || (wanted == RubberLaw::chosen && !(told && stable));
   const char* asked = wanted == RubberLaw::chosen ? "" : "asked for; ";
   if (told && stable)
     result.why = fmt::format("{}the rows tell C10 from C01: {}", asked, constants);
-  else if (chance < gain_by_chance && !stable)
+  else if (chance < by_chance && !stable)
     result.why = fmt::format(
         "{}a Mooney-Rivlin law would follow the rows better, by {}, but with a negative constant "
         "it softens when stretched {}",
@@ -223,7 +223,7 @@ void warn_of_untold(const std::vector<RubberRows>& all, RubberLaw wanted, double
                     one ? "both ways" : "one way", one ? " (--equibiaxial)" : ""));
   }
   if (!fit.neo_hookean && wanted == RubberLaw::mooney_rivlin &&
-      !(chance < gain_by_chance && widest <= told_within))
+      !(chance < by_chance && widest <= told_within))
     diagnostics.warning(place_of(all.front().curve),
                         fmt::format("the rows do not tell C10 from C01: the equibiaxial stress at "
                                     "a stretch of {:.3g} is known within +- {} only; test both "

@@ -20,6 +20,15 @@ double fisher_beyond(double f, double above, double below);
 /// noise, by student_beyond. `freedom`: with that number.
 double chance_of_gain(double squares, double less, double freedom);
 
+/// The one rule of all tests: a further number, another form of a law, a part of the rows as the
+/// elastic one or something that a machine has added is taken where chance, without it, would make
+/// the rows gain as much once in this many curves.
+inline constexpr double by_chance = 1e-3;
+
+/// A curve is refused for it only where chance would do so once in this many: a good one is not to
+/// be refused.
+inline constexpr double surely_not_chance = 1e-6;
+
 /// Place of a minimum of f in [least, most], to 1e-6 of their distance.
 double minimum_of(const std::function<double(double)>& f, double least, double most);
 

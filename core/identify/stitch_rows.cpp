@@ -93,11 +93,11 @@ LineFit line_with_break(const StitchRows& rows, const std::vector<double>& strai
   }
   if (best.shape.breaks == never) return whole;
   best = refine_break(rows, strains, best);
-  constexpr double once_in_a_thousand = 1e-3, most_of_it = 0.25;
+  constexpr double most_of_it = 0.25;
   const double chance =
       chance_of(whole.fit.squares, best.fit, 3) * static_cast<double>(candidates.size());
   const bool much = best.fit.squares < most_of_it * whole.fit.squares;
-  return chance < once_in_a_thousand && much ? best : whole;
+  return chance < by_chance && much ? best : whole;
 }
 
 /// Slopes of a piecewise linear F over knots from the first on, none below 0: those that would be
