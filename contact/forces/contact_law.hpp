@@ -3,10 +3,10 @@
 // overcomes, with viscous damping, and Coulomb friction with elastic stick.
 //
 //   h    mm      distance at which bodies touch;  d  mm  distance now;  p = h - d  penetration
-//   delta mm     depth at which the force becomes infinite;  u = p / delta;  q = 1 - u^2, the room
-//   A    mm^2    tributary area of the contact
-//   k    N/mm^3  penalty stiffness per area, c  N s/mm^3  damping per area
-//   k_t  N/mm^3  tangential stiffness per area: k / 2, of the order of what bodies in contact show
+//   delta mm     depth at which the force becomes infinite;  u = p / delta;  q = 1 - u^2, what is
+//   left A    mm^2    tributary area of the contact k    N/mm^3  penalty stiffness per area, c  N
+//   s/mm^3  damping per area k_t  N/mm^3  tangential stiffness per area: k / 2, of the order of
+//   what bodies in contact show
 //                (2 (1 - nu) / (2 - nu) of the normal one: Mindlin, J. Appl. Mech. 16, 1949), and
 //                the couples of friction (ply_ply.hpp) then hardly lower the stable step
 //   s    mm      elastic tangential displacement (history variable of the contact)
@@ -72,7 +72,9 @@ struct ContactLaw {
   double max_depth = std::numeric_limits<double>::infinity(); ///< delta, mm; infinite: linear
   CompactionCurvePtr loading = {},
                      unloading = {}; ///< null: none; only loading: goes back as it came
-  double spread = 0.0; ///< what its force in the plane of plies adds to the bound of (K), over it
+  /// What its force in the plane of plies, whose thickness it presses, adds to the bound of (K),
+  /// over it.
+  double thickness_coupling = 0.0;
   FrictionLawPtr sliding = {}; ///< instead of `friction`; null: Coulomb's law
   double process_time = 1.0;   ///< s of the process in each simulated second
   double share = 1.0;  ///< of the area on which `sliding` acts: half of it in each of two passes
@@ -84,8 +86,8 @@ struct ContactLaw {
   bool rubs() const { return sliding || friction > 0.0; } ///< whether it has friction at all
   /// Whether its friction goes by the speed.
   bool has_film() const { return sliding && sliding->has_rates(); }
-  /// Whether its friction falls with the speed somewhere, and asks how fast each place slid lately.
-  bool slows() const { return sliding && sliding->falls(); }
+  /// Whether its friction keeps something of each place.
+  bool keeps() const { return sliding && sliding->keeps(); }
   /// Whether it asks for the temperatures of both bodies.
   bool by_temperature() const { return sliding && sliding->spec().flow.factor; }
 
@@ -96,7 +98,7 @@ struct ContactLaw {
   double tangential() const { return 0.5 * stiffness; } ///< k_t, N/mm^3
 
   /// q at depth p, mm.
-  double room(double p) const {
+  double left(double p) const {
     const double u = p / max_depth;
     return std::max(1.0 - u * u, least_room);
   }
@@ -111,7 +113,7 @@ struct ContactLaw {
   /// as just touching.
   double tangent(double p) const {
     const double beyond = std::max(p - packed(), 0.0);
-    const double u = beyond / max_depth, q = room(beyond);
+    const double u = beyond / max_depth, q = left(beyond);
     const double tangent = stiffness * (1.0 + 3.0 * u * u) / (q * q * q);
     if (!loading) return tangent;
     const double inside = std::clamp(p, 0.0, packed());
@@ -122,11 +124,11 @@ struct ContactLaw {
     return beyond > 0.0 ? steepest + tangent : steepest;
   }
   /// Elastic energy per area, N/mm, at depth p > 0, mm, of a law without a curve.
-  double energy(double p) const { return 0.5 * stiffness * p * p / room(p); }
+  double energy(double p) const { return 0.5 * stiffness * p * p / left(p); }
 
 private:
   double barrier(double p) const {
-    const double q = room(p);
+    const double q = left(p);
     return stiffness * p / (q * q);
   }
   /// (C).
@@ -167,11 +169,11 @@ struct SlidingCall {
     SlidingPlace whole = place;
     whole.stiffness /= c.share, whole.pressure /= c.share, whole.area *= c.share;
     const double viscosity = c.law.spec().flow_at(place.celsius);
-    if (whole.lately) begin_sliding(whole, c.per_dt);
+    if (whole.kept) c.law.begin(whole, c.per_dt);
     const double left = c.law.stuck(whole, c.per_dt, viscosity);
     const double y = whole.stretch - left;
     c.law.note(whole, y, c.per_dt, viscosity, c.seen);
-    if (whole.lately) follow_sliding(whole, y, c.per_dt, c.memory);
+    if (whole.kept) c.law.follow(whole, y, c.per_dt, c.memory);
     return left;
   }
 };
@@ -181,7 +183,7 @@ inline void ask(ContactKernelLaw& kernel, std::optional<SlidingCall>& call) {
   if (!call) return;
   kernel.friction = 1.0;
   kernel.stuck = SlidingCall::stuck, kernel.sliding = &*call;
-  kernel.lately = call->law.falls();
+  kernel.keeps = call->law.keeps();
 }
 
 /// Sums, maxima and minima over the points of one contact.
@@ -270,7 +272,7 @@ inline double depth_ahead(const ContactLaw& law, double depth) {
 /// Tangent stiffness (K), N/mm^3, and damping, N s/mm^3, of a contact whose gap is `gap` mm now,
 /// taken at the depth that it may reach until the stable time step is computed again. thickness: r.
 inline ContactRow row_of(const ContactLaw& law, double gap, double thickness) {
-  const double per = 1.0 / thickness, per2 = (1.0 + law.spread) * per * per;
+  const double per = 1.0 / thickness, per2 = (1.0 + law.thickness_coupling) * per * per;
   return {per2 * law.tangent(depth_ahead(law, -gap * per)), per2 * law.damping};
 }
 

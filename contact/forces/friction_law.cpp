@@ -136,9 +136,9 @@ double FrictionLaw::drag(double speed, double viscosity) const {
 OctaveTable::Answer FrictionLaw::coefficient(const SlidingPlace& place, double number,
                                              double viscosity, double pressure) const {
   OctaveTable::Answer mu = hersey_.at(number, spec_.film_beyond);
-  if (!falls_ || !place.lately) return mu;
+  if (!falls_ || !place.kept) return mu;
   const OctaveTable::Answer now = falls_->at(number, false);
-  const double usual = falls_->at(drag(*place.lately, viscosity) / pressure, false).value;
+  const double usual = falls_->at(drag(*place.kept, viscosity) / pressure, false).value;
   mu = {mu.value + 2.0 * (now.value - usual), mu.slope + 2.0 * now.slope};
   return mu.value > 0.0 ? mu : OctaveTable::Answer{0.0, 0.0};
 }
@@ -183,6 +183,15 @@ double FrictionLaw::stuck(const SlidingPlace& place, double per_dt, double visco
   return most - y;
 }
 
+void FrictionLaw::begin(const SlidingPlace& place, double per_dt) const {
+  if (falls() && place.held == 0.0 && place.slip == 0.0) *place.kept = place.stretch * per_dt;
+}
+
+void FrictionLaw::follow(const SlidingPlace& place, double y, double per_dt, double memory) const {
+  if (falls() && per_dt > 0.0 && memory > 0.0)
+    *place.kept += (y * per_dt - *place.kept) * -std::expm1(-1.0 / (per_dt * memory));
+}
+
 void FrictionLaw::note(const SlidingPlace& place, double y, double per_dt, double viscosity,
                        SlidingSeen& seen) const {
   if (!has_rates() || !(y > 0.0) || per_dt == 0.0) return;
@@ -203,7 +212,7 @@ void FrictionLaw::note(const SlidingPlace& place, double y, double per_dt, doubl
   const double pressure = std::max(place.pressure, 1e-12);
   const double number = drag(speed, viscosity) / pressure;
   seen.hersey.add(number, work, first, last);
-  if (!falls_ || !place.lately) return;
+  if (!falls_ || !place.kept) return;
   const double steady = hersey_.at(number, spec_.film_beyond).value;
   const double now = coefficient(place, number, viscosity, pressure).value;
   if (std::abs(now - steady) > unsteady_from * steady) seen.unsteady += work;

@@ -166,9 +166,17 @@ public:
   bool has_rates() const { return spec_.has_rates(); }
   /// Whether its friction falls with the speed anywhere.
   bool falls() const { return falls_.has_value(); }
+  /// Whether it keeps a number of each place, SlidingPlace::kept: the speed u of (M), mm/s, of a
+  /// law that falls.
+  bool keeps() const { return falls(); }
+  /// Before a place is asked for. u of one whose faces have just met is the speed at which they
+  /// slide then. per_dt: 1/s, as of `stuck`.
+  void begin(const SlidingPlace& place, double per_dt) const;
+  /// After a step in which it slid by y (mm): (M), exact for a speed that stays, of memory T (s).
+  void follow(const SlidingPlace& place, double y, double per_dt, double memory) const;
   /// f_a at an angle (rad).
   double by_angle(double angle) const;
-  /// tau at a speed (mm/s) and its slope by that: (R), or (L) without place.lately. viscosity:
+  /// tau at a speed (mm/s) and its slope by that: (R), or (L) without place.kept. viscosity:
   /// f(T).
   OctaveTable::Answer traction(const SlidingPlace& place, double speed, double viscosity) const;
   /// S - y of (I), mm. per_dt: 1/s, inverse of dt; 0 where no time has passed: all of it is kept.
@@ -192,18 +200,6 @@ private:
 
 /// T of (M) over the duration of a run.
 constexpr double memory_share = 1.0 / 200.0;
-
-/// u of a place whose faces have just met is the speed at which they slide then. per_dt: 1/s, as of
-/// FrictionLaw::stuck.
-inline void begin_sliding(const SlidingPlace& place, double per_dt) {
-  if (place.held == 0.0 && place.slip == 0.0) *place.lately = place.stretch * per_dt;
-}
-
-/// (M) over a step in which the place slid by y (mm); exact for a speed that stays. memory: T, s.
-inline void follow_sliding(const SlidingPlace& place, double y, double per_dt, double memory) {
-  if (!(per_dt > 0.0 && memory > 0.0)) return;
-  *place.lately += (y * per_dt - *place.lately) * -std::expm1(-1.0 / (per_dt * memory));
-}
 
 using FrictionLawPtr = std::shared_ptr<const FrictionLaw>;
 

@@ -191,7 +191,7 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
       if (const PlyPlyPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[before - old.data()] = 1;
         c.memory = before->memory;
-        c.lately = before->lately;
+        c.kept = before->kept;
         c.side = before->side;
         c.area = before->area; // its springs store energy
         double& free_until = contact.list.free_until.back();

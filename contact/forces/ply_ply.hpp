@@ -91,7 +91,7 @@ double thickness_ratio_at(const PlyPlyContact& contact, const PlyPlyPoint& point
 template <class F>
 void each_member(PlyPlyPoint& point, F&& f) {
   auto& [memory, area, gap, w, other, gap_when_deactivated, node, face, first_face, end_face, side,
-         by_angle, lately] = point;
+         by_angle, kept] = point;
   f("memory", memory);
   f("area", area);
   f("gap", gap);
@@ -104,7 +104,7 @@ void each_member(PlyPlyPoint& point, F&& f) {
   f("end_face", end_face);
   f("side", side);
   f("by_angle", by_angle);
-  f("lately", lately);
+  f("kept", kept);
 }
 
 template <class F>

@@ -146,7 +146,7 @@ Vec3 press(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematic
   k.compacted = contact.compacted.empty() ? nullptr : contact.compacted.data();
   if (contact.law.by_temperature() && tool.temperature && !ply.temperature.empty())
     k.celsius = ply.temperature.data(), k.tool_celsius = *tool.temperature;
-  k.lately_at = contact.lately.data();
+  k.kept_at = contact.kept.data();
   std::optional<SlidingCall> call;
   if (contact.law.sliding) call.emplace(contact.law, dt);
   ask(k, call);
@@ -223,7 +223,7 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
   clear(contact.list);
   contact.free.resize(ply.x.size(), -std::numeric_limits<float>::infinity());
   if (contact.law.unloading) contact.compacted.resize(ply.x.size(), 0.0);
-  if (contact.law.slows()) contact.lately.resize(ply.x.size(), 0.0);
+  if (contact.law.keeps()) contact.kept.resize(ply.x.size(), 0.0);
   const bool is_mesh = std::holds_alternative<MeshShapePtr>(tool.shape);
   if (is_mesh) contact.hints.resize(ply.x.size());
   const double film = contact.law.sliding_gap;

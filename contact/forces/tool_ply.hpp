@@ -80,7 +80,7 @@ struct ToolPlyContact {
       hints;                     ///< per node of the ply, of those without a point; mesh tools only
   std::vector<Vec3> force;       ///< N, per node of the ply; zero without a point. Empty: no points
   std::vector<double> compacted; ///< mm, per node of the ply: greatest depth; of some laws only
-  std::vector<double> lately;    ///< mm/s, u per node of the ply; of some laws of friction only
+  std::vector<double> kept;      ///< SlidingPlace::kept per node of the ply; of some laws only
   ContactTotals sums;
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again
   ContactTime time; ///< s, without the equilibrium of a pushed tool, which all its plies share
@@ -89,15 +89,15 @@ struct ToolPlyContact {
 /// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(ToolPlyContact& c, F&& f) {
-  auto& [law, half_thickness, thickness_follows, points, list, free, hints, force, compacted,
-         lately, sums, renew_depth, time] = c;
+  auto& [law, half_thickness, thickness_follows, points, list, free, hints, force, compacted, kept,
+         sums, renew_depth, time] = c;
   f("points", points);
   f("list", list);
   f("free", free);
   f("hints", hints);
   f("force", force);
   f("compacted", compacted);
-  f("lately", lately);
+  f("kept", kept);
   f("sums", sums);
   f("renew_depth", renew_depth);
 }

@@ -282,7 +282,7 @@ struct SimdSliding {
   Doubles by_angle;      ///< f_a of contact/forces/friction_law.hpp
   Doubles per_thickness; ///< 1 over r: before forming the area is that times as large
   Doubles celsius;       ///< degC, of the film; NaN: not known
-  double* lately[lanes]; ///< of SlidingPlace
+  double* kept[lanes];   ///< of SlidingPlace
 };
 
 /// |s| that is left of `stretch` (mm) by contact/forces/friction_law.hpp, point by point.
@@ -298,7 +298,7 @@ PLYFORM_INLINE Doubles stuck_of(const ContactKernelLaw& k, Doubles area, Doubles
   for (int i = 0; i < lanes; ++i)
     left[i] = !has(asked, i) ? 0.0
                              : k.stuck(k.sliding, {s[i], h[i], k.tangential / r[i], p[i] / r[i],
-                                                   w[i], f[i], a[i], t[i], by.lately[i]});
+                                                   w[i], f[i], a[i], t[i], by.kept[i]});
   return each_lane([&](int i) { return left[i]; });
 }
 

@@ -34,15 +34,15 @@ struct CompactionTable {
 /// What a place that slides has, and what its law of friction goes by: the left side of (I) of
 /// contact/forces/friction_law.hpp.
 struct SlidingPlace {
-  double stretch;           ///< S, mm
-  double held;              ///< mm, |s| of the step before
-  double stiffness;         ///< k_t, N/mm^3, per present area
-  double pressure;          ///< p, N/mm^2
-  double slip;              ///< mm, slid since it has touched
-  double angle;             ///< f_a
-  double area;              ///< mm^2, before forming
-  double celsius;           ///< degC, of the film; NaN: not known
-  double* lately = nullptr; ///< u, mm/s, of the place; null: its law does not ask for it
+  double stretch;         ///< S, mm
+  double held;            ///< mm, |s| of the step before
+  double stiffness;       ///< k_t, N/mm^3, per present area
+  double pressure;        ///< p, N/mm^2
+  double slip;            ///< mm, slid since it has touched
+  double angle;           ///< f_a
+  double area;            ///< mm^2, before forming
+  double celsius;         ///< degC, of the film; NaN: not known
+  double* kept = nullptr; ///< what its law keeps of the place (FrictionLaw::keeps); null: nothing
 };
 
 /// The law of a contact (contact/forces/contact_law.hpp) as kernels see it.
@@ -58,7 +58,7 @@ struct ContactKernelLaw {
   /// `friction` only says that there is some.
   double (*stuck)(void* sliding, const SlidingPlace& place);
   void* sliding; ///< first argument of it
-  bool lately;   ///< whether it asks for SlidingPlace::lately
+  bool keeps;    ///< whether it asks for SlidingPlace::kept
 };
 
 /// History variables of one contact.
@@ -97,7 +97,7 @@ struct alignas(32) PlyPlyPoint {
   std::int32_t side = 0; ///< +1: on the side of the face normal, -1: opposite, 0: not known
 
   double by_angle = 1.0; ///< f_a of contact/forces/friction_law.hpp, at the last search
-  double lately = 0.0;   ///< mm/s, u of it
+  double kept = 0.0;     ///< SlidingPlace::kept
 };
 
 } // namespace plyform

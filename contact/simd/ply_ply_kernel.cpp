@@ -317,8 +317,8 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* acti
                film_temperatures(k, g, w),
                {held.of[3], last.of[0], last.of[1], {held.of[0], held.of[1], held.of[2]}},
                {}};
-  for (int i = 0; i < lanes && k.lately; ++i)
-    p.lately[i] = &g.point[i]->lately;
+  for (int i = 0; i < lanes && k.keeps; ++i)
+    p.kept[i] = &g.point[i]->kept;
   const SimdForces f = forces_of(k, x, u, w, distance, fold, mask_of(g.real), p, sums);
   add_forces(k, g, w, f);
   store_points(k, active, g, chunk, p);

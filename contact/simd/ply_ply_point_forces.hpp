@@ -23,7 +23,7 @@ struct SimdPoints {
   Doubles vacuum_area; ///< mm^2, b A of (V)
   Doubles celsius;     ///< degC, of the film between the plies there; NaN: not asked for
   SimdHistory memory;
-  double* lately[lanes]; ///< of SlidingPlace, if the law asks for it
+  double* kept[lanes]; ///< of SlidingPlace, if the law asks for it
 };
 
 /// Weights of corners b and c at the closest points.
@@ -98,8 +98,8 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
     const Vectors slip = motion - cross(turn, arm);                   // (P)
     const Vectors& s = p.memory.s;
     SimdSliding by{p.by_angle, per_thickness, p.celsius, {}};
-    for (int i = 0; i < lanes && k.lately; ++i)
-      by.lately[i] = p.lately[i];
+    for (int i = 0; i < lanes && k.keeps; ++i)
+      by.kept[i] = p.kept[i];
     const Vectors tangential =
         friction_of(k, area, pressure + vacuum.borne, normal, s + cross(turn, s), slip, by,
                     vacuum.rubs, p.memory, sums);

@@ -100,8 +100,8 @@ PLYFORM_INLINE Vectors forces_of(const ToolPlyKernelContact& k, const ToolGroup&
   if (k.friction > 0.0) {
     const Vectors slip = motions(k, g) - everywhere(k.tool_motion);
     SimdSliding by{all(1.0), per_thickness, film_temperatures(k, g), {}};
-    for (int i = 0; i < lanes && k.lately; ++i)
-      by.lately[i] = k.lately_at + g.point[i]->node;
+    for (int i = 0; i < lanes && k.keeps; ++i)
+      by.kept[i] = k.kept_at + g.point[i]->node;
     f = f + friction_of(k, area, pressure, normal, m.s, slip, by, touch, m, sums);
     m.slip = touch ? m.slip : zero;
   }

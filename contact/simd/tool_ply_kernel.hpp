@@ -20,7 +20,7 @@ struct ToolPlyKernelContact : ContactKernelLaw {
   const double* thickness_ratio; ///< r, of the nodes; null: 1
   const double* celsius;         ///< degC, of the nodes; null: not asked for
   double tool_celsius;           ///< degC
-  double* lately_at;             ///< mm/s, u of nodes, if the law asks for it
+  double* kept_at;               ///< SlidingPlace::kept of nodes, if the law asks for it
 };
 
 /// ContactTotals of this step over the points: sums, maxima and minima. on_nodes: sum of the forces

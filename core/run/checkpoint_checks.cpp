@@ -201,7 +201,7 @@ void check(const ToolState& tool, const ToolPlyContact& c, std::size_t n) {
   for (const SurfaceHint& hint : c.hints)
     expect(fits(hint, facets), "a facet of a tool");
   expect(c.force.size() == (c.points.empty() ? 0 : n) && all_sound(c.force), "forces of a tool");
-  check_remembered(c.compacted, n), check_remembered(c.lately, n);
+  check_remembered(c.compacted, n), check_remembered(c.kept, n);
   check(c.sums);
   expect(known(c.renew_depth), "the depth of a contact");
 }
@@ -244,7 +244,7 @@ void check(const Scene& s, const PlyContact& pair) {
            "faces near a node");
     expect(sound(p.memory) && p.area > 0.0 && sound(p.area) && known(p.gap) && sound(p.w[0]) &&
                sound(p.w[1]) && known(p.other) && known(p.gap_when_deactivated) && p.side >= -1 &&
-               p.side <= 1 && sound(p.lately) && p.lately >= 0.0,
+               p.side <= 1 && sound(p.kept) && p.kept >= 0.0,
            "a contact of plies");
   }
   check(c.list, c.points.size());

@@ -257,7 +257,7 @@ struct PressureForces : NoForce {
 
 /// What contacts do in the plane of plies, whose thickness follows their area:
 /// core/solver/thickness_forces.cpp. Its energy is that of the contacts, its stiffness in their
-/// rows (ContactLaw::spread).
+/// rows (ContactLaw::thickness_coupling).
 struct ThicknessForces : NoForce {
   static constexpr int begun = 6, summed = 6;
 

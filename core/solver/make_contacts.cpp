@@ -73,10 +73,10 @@ void rub(const Case& data, int a, int b, double distance, ContactLaw& law) {
   law.sliding_gap = std::min(named->spec().film_thickness(), thickest * distance);
 }
 
-/// ContactLaw::spread: thickness over element size, squared. A contact at a node has gradients of 1
-/// at it and of half the thickness by 0.29 / element size at each of six around it, and each node
-/// is in six such: K = k G G^T of all contacts is at most k (1 + 0.76 (t/e)^2).
-double spread_of(const PlyBody& ply) {
+/// ContactLaw::thickness_coupling: thickness over element size, squared. A contact at a node has
+/// gradients of 1 at it and of half the thickness by 0.29 / element size at each of six around it,
+/// and each node is in six such: K = k G G^T of all contacts is at most k (1 + 0.76 (t/e)^2).
+double coupling_of(const PlyBody& ply) {
   return ply.thickness * ply.thickness / cell_area(ply);
 }
 
@@ -149,7 +149,7 @@ PlyContact make_pass(const Case& data, const std::vector<PlyBody>& plies, int a,
         std::max(pair.contact.law.sliding_gap, 2.0 * pair.contact.vacuum_gap);
   }
   if (pair.contact.thickness_follows)
-    pair.contact.law.spread = std::max(spread_of(slave), spread_of(master));
+    pair.contact.law.thickness_coupling = std::max(coupling_of(slave), coupling_of(master));
   return pair;
 }
 
@@ -194,7 +194,7 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBo
     rub(data, static_cast<int>(p), body, c.half_thickness, c.law);
     c.thickness_follows = plies[p].thickness_acts;
     give_way(c.law, 1.0, {&plies[p]});
-    if (c.thickness_follows) c.law.spread = spread_of(plies[p]);
+    if (c.thickness_follows) c.law.thickness_coupling = coupling_of(plies[p]);
     t.contacts.push_back(std::move(c));
   }
   t.ply_paths.assign(plies.size(), 0.0);

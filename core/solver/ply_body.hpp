@@ -139,9 +139,9 @@ struct PlyCache {
   std::vector<double> borne_load;
   std::vector<double> area_now; ///< mm^2, of each node, of plies that a vacuum presses; else empty
   double last_load_work = 0.0; ///< N mm, of these forces over the half of the step that led to them
-  std::vector<double> last_ratio; ///< thickness_ratio in the step before
-  std::vector<double> squeeze;    ///< N/mm, core/solver/thickness_forces.cpp; so below
-  std::vector<Vec3> spread;       ///< N, on each node; valid while `pressed`
+  std::vector<double> last_ratio;    ///< thickness_ratio in the step before
+  std::vector<double> squeeze;       ///< N/mm, core/solver/thickness_forces.cpp; so below
+  std::vector<Vec3> thickness_force; ///< N, on each node; valid while `pressed`
   bool pressed = false;
   /// What yarns will remember once the step that was computed is taken.
   std::vector<SimdYarnStates> yarns_end;
@@ -160,8 +160,8 @@ void each_array(PlyCache& ply, F&& f) {
   auto& [x_search, max_displacement, path_length, fold_bound, fold_motion, occluded, ridges,
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
          thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
-         borne_load, area_now, last_load_work, last_ratio, squeeze, spread, pressed, yarns_end,
-         viscous_end, bending_end, viscous_stepped, bending_stepped, flow_factors,
+         borne_load, area_now, last_load_work, last_ratio, squeeze, thickness_force, pressed,
+         yarns_end, viscous_end, bending_end, viscous_stepped, bending_stepped, flow_factors,
          node_flow_factors, shear_factors, flow_time] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);

@@ -77,8 +77,8 @@ void find_squeeze(Scene& s, std::size_t p) {
 }
 
 /// (F).
-void spread(PlyBody& ply) {
-  ply.spread.assign(ply.x.size(), Vec3::Zero());
+void find_thickness_force(PlyBody& ply) {
+  ply.thickness_force.assign(ply.x.size(), Vec3::Zero());
   const Membrane& m = ply.membrane;
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const Triangle& t = m.triangles[e];
@@ -87,9 +87,9 @@ void spread(PlyBody& ply) {
     if (!(w > 0.0)) continue;
     const ElementThickness thickness = element_thickness(ply.thickness_law, m, ply.x, e);
     const Vec3 at_b = -w * thickness.by_b, at_c = -w * thickness.by_c;
-    ply.spread[at(t[0])] -= at_b + at_c;
-    ply.spread[at(t[1])] += at_b;
-    ply.spread[at(t[2])] += at_c;
+    ply.thickness_force[at(t[0])] -= at_b + at_c;
+    ply.thickness_force[at(t[1])] += at_b;
+    ply.thickness_force[at(t[2])] += at_c;
   }
 }
 
@@ -102,13 +102,13 @@ void ThicknessForces::finish(Scene& s, ThreadPool& pool) {
     ply.pressed = ply.thickness_acts && !ply.resting && is_pressed(s.tools, s.ply_pairs, at(p));
     if (!ply.pressed) return;
     find_squeeze(s, at(p));
-    spread(ply);
+    find_thickness_force(ply);
   });
 }
 
 void ThicknessForces::list_arrays(Layup& layup) {
   for (PlyBody& ply : layup.plies)
-    if (ply.pressed) ply.nodal_forces.push_back(&ply.spread);
+    if (ply.pressed) ply.nodal_forces.push_back(&ply.thickness_force);
 }
 
 } // namespace plyform

@@ -78,7 +78,7 @@ TEST(ClosedMould, ForcesOfAShearedStackAreTheSlopeOfItsEnergy) {
   std::vector<Vec3>& x = stack.scene.plies[0].x;
   const auto contact_force = [&](std::size_t n) {
     const PlyBody& ply = stack.scene.plies[0];
-    Vec3 f = stack.scene.ply_pairs[0].force_a[n] + ply.spread[n];
+    Vec3 f = stack.scene.ply_pairs[0].force_a[n] + ply.thickness_force[n];
     for (const ToolState& tool : stack.scene.tools)
       if (!tool.contacts[0].force.empty()) f += tool.contacts[0].force[n];
     return f;
@@ -88,7 +88,7 @@ TEST(ClosedMould, ForcesOfAShearedStackAreTheSlopeOfItsEnergy) {
   for (std::size_t n = 0; n < x.size(); n += 7) {
     stack.compute();
     const Vec3 f = contact_force(n), at = x[n];
-    widest = std::max(widest, stack.scene.plies[0].spread[n].norm());
+    widest = std::max(widest, stack.scene.plies[0].thickness_force[n].norm());
     for (int k = 0; k < 3; ++k) {
       constexpr double h = 1e-5; // mm
       x[n][k] = at[k] + h;

@@ -164,7 +164,7 @@ TEST(FrictionLaw, IsThatOfSteadySlidingAtTheSpeedOfLateAndRisesFromThere) {
     for (double speed = 1e-3; speed < 1e4; speed *= 3.0) {
       double lately = speed;
       SlidingPlace place = place_of(1.0, 1.0, pressure), steady = place;
-      place.lately = &lately;
+      place.kept = &lately;
       EXPECT_DOUBLE_EQ(law.traction(place, speed, 1.0).value,
                        law.traction(steady, speed, 1.0).value);
       double before = 0.0;
@@ -190,10 +190,10 @@ TEST(FrictionLaw, ASpringIsDrawnSteadilyWhereFrictionFallsWithTheSpeed) {
       const int steps = static_cast<int>(1.0 / dt);
       for (int i = 0; i < steps; ++i) {
         SlidingPlace place = place_of(held + speed * dt, held, pressure, slip);
-        place.lately = &lately;
-        if (i == 0) begin_sliding(place, 1.0 / dt);
+        place.kept = &lately;
+        if (i == 0) law.begin(place, 1.0 / dt);
         const double left = law.stuck(place, 1.0 / dt, 1.0), y = place.stretch - left;
-        follow_sliding(place, y, 1.0 / dt, memory);
+        law.follow(place, y, 1.0 / dt, memory);
         held = left, slip += y;
         if (i > steps / 2) least = std::min(least, k * held), most = std::max(most, k * held);
       }
@@ -212,11 +212,11 @@ TEST(FrictionLaw, TellsWhatSlidUnsteadily) {
     double held = 0.0, slip = 0.0, lately = 0.0;
     for (int i = 0; i < 4000; ++i) {
       SlidingPlace place = place_of(held + speed * dt, held, pressure, slip);
-      place.lately = &lately, place.stiffness = stiffness;
-      if (i == 0) begin_sliding(place, 1.0 / dt);
+      place.kept = &lately, place.stiffness = stiffness;
+      if (i == 0) law.begin(place, 1.0 / dt);
       const double left = law.stuck(place, 1.0 / dt, 1.0), y = place.stretch - left;
       law.note(place, y, 1.0 / dt, 1.0, seen);
-      follow_sliding(place, y, 1.0 / dt, memory);
+      law.follow(place, y, 1.0 / dt, memory);
       held = left, slip += y;
     }
     return seen.unsteady / seen.hersey.work;
