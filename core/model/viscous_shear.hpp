@@ -73,17 +73,6 @@ struct ViscousShear {
   std::optional<std::array<double, 2>> known_rates() const;
 };
 
-/// q_1 of (B) for D = c v: of a dashpot of viscosity c (N mm s) behind a spring of modulus K (N mm)
-/// that is moved by `change` in dt (s).
-inline double dashpot_torque(double viscosity, double spring, double dt, double q0, double change) {
-  const double resist = viscosity + spring * dt;
-  return resist > 0.0 ? viscosity / resist * (q0 + spring * change) : 0.0;
-}
-/// What a branch loses in a step: work less what its spring of this modulus stores more.
-inline double branch_loss(double q0, double q1, double change, double modulus) {
-  return 0.5 * (q0 + q1) * (change - (q1 - q0) / modulus);
-}
-
 /// (X): the factors e of q_0 and G theta (1 - e)/dt of the motion (N mm). dt: s, above 0.
 struct MaxwellStep {
   double keep = 1.0, rise = 0.0;

@@ -22,7 +22,7 @@ PLYFORM_INLINE void set_state(const ViscousStatesOfQuads& s, int number, Doubles
     store(s.end.of[q][number].of, quad(value, q));
 }
 
-/// Moves a torque to q1 and adds what is lost: branch_loss.
+/// Moves a torque to q1 and adds what is lost: work less what its spring stores more.
 PLYFORM_INLINE Doubles moved_to(const ViscousStatesOfQuads& s, int number, Doubles q0, Doubles q1,
                                 Doubles change, double per_modulus, Doubles& lost) {
   lost += 0.5 * (q0 + q1) * (change - (q1 - q0) * per_modulus);
@@ -30,7 +30,7 @@ PLYFORM_INLINE Doubles moved_to(const ViscousStatesOfQuads& s, int number, Doubl
   return q1;
 }
 
-/// dashpot_torque.
+/// q_1 of (B) of core/model/viscous_shear.hpp for D = c v, of a dashpot behind a spring.
 PLYFORM_INLINE Doubles move_dashpot(const ViscousStatesOfQuads& s, int number, Doubles viscosity,
                                     const KernelSpring& spring, Doubles change, Doubles& lost) {
   constexpr double least = 1e-300; // where there is neither a viscosity nor a step

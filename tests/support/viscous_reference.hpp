@@ -14,6 +14,17 @@
 
 namespace plyform {
 
+/// q_1 of (B) of core/model/viscous_shear.hpp for D = c v: of a dashpot of viscosity c (N mm s)
+/// behind a spring of modulus K (N mm) that is moved by `change` in dt (s).
+inline double dashpot_torque(double viscosity, double spring, double dt, double q0, double change) {
+  const double resist = viscosity + spring * dt;
+  return resist > 0.0 ? viscosity / resist * (q0 + spring * change) : 0.0;
+}
+/// What a branch loses in a step: work less what its spring of this modulus stores more.
+inline double branch_loss(double q0, double q1, double change, double modulus) {
+  return 0.5 * (q0 + q1) * (change - (q1 - q0) / modulus);
+}
+
 /// What triangles keep: `states` numbers for the first, for the second ...
 struct ViscousStates {
   std::span<const double> begin;
