@@ -81,8 +81,7 @@ endforeach()
 
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform)
-# plyform chart calls tools/study, which takes the rest; plyform studio, report, map, pattern and
-# export call the programs of their names.
+# plyform study, studio, report, map, pattern and export call the programs of their names.
 install(PROGRAMS tools/study tools/studio tools/report tools/map tools/pattern tools/export DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
 install(FILES tools/area_means.py tools/compare.py DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
 install(PROGRAMS tools/mesh_tool.py tools/check_bands.py tools/check_predictions.py

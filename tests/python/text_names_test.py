@@ -183,7 +183,7 @@ def check_command(file, number, words):
         if words[1] == "results":
             return None
         known = options_of_command(words[1])
-        script = "tools/" + {"chart": "study"}.get(words[1], words[1])
+        script = "tools/" + words[1]
         if script in programs():  # which has its own
             known = known | options_of_script(script)
         if words[1] in ("identify", "theory") and len(words) > 2 and re.fullmatch("[a-z-]+", words[2]) and \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line: plyform run | check | chart | studio | report | map | pattern | export |
+// The command line: plyform run | check | study | studio | report | map | pattern | export |
 // difference | identify | theory | keys | version.
 #include "base/format.hpp"
 #include "base/outputs.hpp"
@@ -64,14 +64,15 @@ struct Command {
 };
 
 /// A command that tools/SCRIPT does, with its own options and help.
-void add_script(CLI::App& app, std::vector<Command>& commands, const char* name, const char* script,
-                const char* what, bool with_program = false) {
+CLI::App* add_script(CLI::App& app, std::vector<Command>& commands, const char* name,
+                     const char* script, const char* what, bool with_program = false) {
   CLI::App* command = app.add_subcommand(name, what);
   command->prefix_command();
   command->set_help_flag();
   commands.push_back({command, [command, script, with_program] {
                         return script_command(script, command->remaining(), with_program);
                       }});
+  return command;
 }
 
 void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& commands) {
@@ -100,7 +101,8 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   add_accuracy(*check, to.check);
   commands.push_back({check, [&to] { return check_command(to.check); }});
 
-  add_script(app, commands, "chart", "study", "run a study of a case, as tools/study does", true);
+  add_script(app, commands, "study", "study", "run a study of a case, as tools/study does", true)
+      ->alias("chart"); // its name in earlier builds
 }
 
 void add_keys(CLI::App& app, Arguments& to, std::vector<Command>& commands) {
