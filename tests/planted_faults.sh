@@ -18,7 +18,7 @@ faults=(
   "normal force between plies pulls | contact/simd/ply_ply_point_forces.hpp | s/SimdForces f{p.memory.normal_force \* normal/SimdForces f{-p.memory.normal_force * normal/"
   "boxes of the search: one triangle in 64 is never a candidate | contact/search/sheet_bvh.cpp | s/if (candidate.distance2 <= reach \* reach)/if (candidate.distance2 <= reach * reach \&\& face % 64 != 7)/"
   "boxes of the search are not brought up to date | core/solver/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
-  "contacts of plies are listed without the skin | core/solver/follow_thickness.cpp | s/s.thickest \* distance + s.skin/s.thickest * distance/"
+  "contacts of plies are listed without the skin | core/solver/follow_thickness.cpp | s/layup.thickest \* distance + layup.skin/layup.thickest * distance/"
   "what may have closed its gap is looked at too late, plies | contact/search/active_list.hpp | s/if (list.free_until\[i\] > now)/if (list.free_until[i] + 0.5 > now)/"
   "a fold round a face is taken for a tenth of what it is | contact/simd/ply_ply_closest.hpp | s/return larger(distance, all(k.distance))/return 0.1 * larger(distance, all(k.distance))/"
   "bounds of folds are renewed by searches only | core/solver/follow_folds.cpp | s/if (ply.fold_motion > .*/if (ply.fold_motion > 1e300) renew_fold_bounds(ply);/"
