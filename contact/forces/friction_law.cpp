@@ -146,7 +146,9 @@ OctaveTable::Answer FrictionLaw::coefficient(const SlidingPlace& place, double n
 OctaveTable::Answer FrictionLaw::traction(const SlidingPlace& place, double speed,
                                           double viscosity) const {
   const FrictionLawSpec& s = spec_;
-  const double by = place.angle * (s.over_slip.empty() ? 1.0 : on_pieces(s.over_slip, place.slip));
+  const double by =
+      place.angle * (s.over_slip.empty() ? 1.0 : on_pieces(s.over_slip, place.slip)) *
+      (s.over_wear.empty() || !place.kept ? 1.0 : on_pieces(s.over_wear, *place.kept));
   const double tack = s.tack.empty() ? 0.0 : on_pieces(s.tack, place.slip);
   if (s.kind == FrictionLawSpec::Kind::coulomb)
     return {by * s.coefficient * place.pressure + tack, 0.0};
@@ -188,7 +190,9 @@ void FrictionLaw::begin(const SlidingPlace& place, double per_dt) const {
 }
 
 void FrictionLaw::follow(const SlidingPlace& place, double y, double per_dt, double memory) const {
-  if (falls() && per_dt > 0.0 && memory > 0.0)
+  if (!falls())
+    *place.kept += y;
+  else if (per_dt > 0.0 && memory > 0.0)
     *place.kept += (y * per_dt - *place.kept) * -std::expm1(-1.0 / (per_dt * memory));
 }
 

@@ -10,9 +10,11 @@
 //   H     mm        eta v / p, the Hersey number: a length
 //   f_a   -         factor by the angle between the fibres of both faces
 //   f_s   -         factor by the way slid since they touched: a peak at the start
+//   f_w   -         factor by the way slid since the start, also before the faces parted: they wear
+//                   in, as coatings and loose fibrils do
 //   tau_t N/mm^2    tack, by the same way
 //
-//   Coulomb           tau = f_a f_s mu p + tau_t
+//   Coulomb           tau = f_a f_s f_w mu p + tau_t
 //   over Hersey's     tau = f_a f_s mu(H) p + tau_t
 //   film              tau = f_a f_s (tau_0 + eta v / h) + tau_t                              (L)
 //
@@ -116,12 +118,14 @@ struct FrictionLawSpec {
   double yield = 0.0;                      ///< tau_0, N/mm^2
   std::vector<CurvePoint> over_angle;      ///< f_a over rad, 0 to pi/2; empty: 1
   std::vector<CurvePoint> over_slip;       ///< f_s over mm; empty: 1
+  std::vector<CurvePoint> over_wear;       ///< f_w over mm, of Coulomb's law; empty: 1
   std::vector<CurvePoint> tack;            ///< tau_t over mm; empty: none
 
   bool has_rates() const { return kind != Kind::coulomb; }
   /// Whether it is Coulomb's law with one coefficient.
   bool plain() const {
-    return !has_rates() && over_angle.empty() && over_slip.empty() && tack.empty();
+    return !has_rates() && over_angle.empty() && over_slip.empty() && over_wear.empty() &&
+           tack.empty();
   }
   /// mm, thickness of the film that needs no pressure; 0: there is none.
   double film_thickness() const;
@@ -167,8 +171,8 @@ public:
   /// Whether its friction falls with the speed anywhere.
   bool falls() const { return falls_.has_value(); }
   /// Whether it keeps a number of each place, SlidingPlace::kept: the speed u of (M), mm/s, of a
-  /// law that falls.
-  bool keeps() const { return falls(); }
+  /// law that falls, or the way slid, mm, of one that wears.
+  bool keeps() const { return falls() || !spec_.over_wear.empty(); }
   /// Before a place is asked for. u of one whose faces have just met is the speed at which they
   /// slide then. per_dt: 1/s, as of `stuck`.
   void begin(const SlidingPlace& place, double per_dt) const;

@@ -146,6 +146,17 @@ Rows factor_rows() {
            .least_items = 2,
            .meaning = "[way slid since the faces touched, factor on the friction]: a peak at the "
                       "start"},
+          {.key = friction_key("over_wear"),
+           .kind = K::pairs,
+           .unit = "mm, -",
+           .otherwise = "1 throughout",
+           .ranges = {{.least = 0.0, .most = 1e6}, {.least = 0.0, .most = 10.0}},
+           .usual = {{.least = 0.0, .most = 1e6}, {.least = 0.1, .most = 2.0}},
+           .least_items = 2,
+           .of = "law",
+           .with = {"coulomb"},
+           .meaning = "[way slid since the start, factor on the friction]: faces that wear in; "
+                      "lifting off a tool does not start it anew"},
           {.key = friction_key("tack"),
            .kind = K::pairs,
            .unit = "mm, N/mm2",
@@ -216,6 +227,7 @@ struct LawReader {
     spec.viscosity_curve = points("viscosity_curve");
     spec.over_angle = points("over_angle");
     spec.over_slip = points("over_slip");
+    spec.over_wear = points("over_wear");
     spec.tack = points("tack");
     spec.flow = read_flow(subsection(section, "temperature"), diagnostics);
     check_thinning(spec);

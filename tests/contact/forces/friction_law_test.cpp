@@ -294,6 +294,46 @@ TEST(FrictionLaw, APlateDragsNodesByTheLawAndAllItsWorkIsStoredOrLost) {
   }
 }
 
+/// f_w goes by all the way that a place has slid, f_s by that since it touched: after lifting off
+/// the first goes on, the second begins anew. The work is that of mu p f over the way.
+TEST(FrictionLaw, FacesThatWearInStayWornWhenTheyPart) {
+  for (const std::size_t nodes : {1u, 9u}) {
+    FrictionLawSpec wears, peaks;
+    wears.coefficient = peaks.coefficient = 0.4;
+    wears.over_wear = peaks.over_slip = {{0.0, 1.0}, {10.0, 0.5}};
+    const auto mu = [](double way) { return 0.4 * (1.0 - 0.05 * std::min(way, 10.0)); };
+    for (const bool wear : {true, false}) {
+      Dragged d(wear ? wears : peaks, nodes);
+      double way = 0.0;
+      const auto slide = [&](double by) {
+        d.step(0.0, 0.0); // touches, without a way
+        for (int i = 0; i < 400; ++i)
+          d.step(by / 4e-3, 1e-5);
+        way += by;
+      };
+      const auto held = [&] { return d.force / d.normal; };
+      slide(4.0);
+      const double stretch = 0.4 * d.normal / (2.0 * static_cast<double>(nodes)) / k; // at most
+      EXPECT_NEAR(held(), mu(way), 0.4 * 0.05 * (stretch + 0.01));
+      const double worn = way;
+      for (Vec3& x : d.x)
+        x.z() += 0.05; // lifts off
+      d.step(0.0, 1e-5);
+      EXPECT_EQ(d.force, 0.0);
+      for (Vec3& x : d.x)
+        x.z() -= 0.05;
+      if (!wear) way = 0.0;
+      slide(3.0);
+      EXPECT_NEAR(held(), mu(way), 0.4 * 0.05 * (2.0 * stretch + 0.01)) << wear;
+      slide(20.0);
+      EXPECT_NEAR(held(), 0.2, 1e-12) << "beyond the curve it stays";
+      if (wear) {
+        EXPECT_NEAR(d.contacts[0].kept[0], worn + 23.0, 3.0 * stretch);
+      }
+    }
+  }
+}
+
 TEST(FrictionLaw, AFilmRelaxesAndItsSpeedIsThatOfTheProcess) {
   Dragged d(film_of(4e-4, 0.05), 5);
   d.contacts[0].law.process_time = 100.0; // a simulated second is 100 s

@@ -44,6 +44,7 @@ TEST(FrictionLaws, AreReadInUnitsOfTheProgram) {
   EXPECT_EQ(film.tack.front().value, 0.01);
   const FrictionLawSpec& dry = law(data, 0, 1);
   EXPECT_NEAR(FrictionLaw(dry).by_angle(std::atan(1.0)), 0.3, 1e-12); // 45 degrees
+  EXPECT_EQ(dry.over_wear.back().value, 0.7);
   const FrictionLawSpec& formula = data.friction_laws.at(1)->spec();
   EXPECT_EQ(formula.name, "stribeck");
   EXPECT_NEAR(formula.hersey(4e-3), 0.2 * std::exp(-2.0) + 1.5 * std::sqrt(4e-3), 1e-12);
