@@ -3,10 +3,10 @@
 // overcomes, with viscous damping, and Coulomb friction with elastic stick.
 //
 //   h    mm      distance at which bodies touch;  d  mm  distance now;  p = h - d  penetration
-//   delta mm     depth at which the force becomes infinite;  u = p / delta;  q = 1 - u^2, what is
-//   left A    mm^2    tributary area of the contact k    N/mm^3  penalty stiffness per area, c  N
-//   s/mm^3  damping per area k_t  N/mm^3  tangential stiffness per area: k / 2, of the order of
-//   what bodies in contact show
+//   delta mm     depth at which the force becomes infinite;  u = p / delta;  q = 1 - u^2
+//   A    mm^2    tributary area of the contact
+//   k    N/mm^3  penalty stiffness per area, c  N s/mm^3  damping per area
+//   k_t  N/mm^3  tangential stiffness per area: k / 2, of the order of what bodies in contact show
 //                (2 (1 - nu) / (2 - nu) of the normal one: Mindlin, J. Appl. Mech. 16, 1949), and
 //                the couples of friction (ply_ply.hpp) then hardly lower the stable step
 //   s    mm      elastic tangential displacement (history variable of the contact)
@@ -98,9 +98,9 @@ struct ContactLaw {
   double tangential() const { return 0.5 * stiffness; } ///< k_t, N/mm^3
 
   /// q at depth p, mm.
-  double left(double p) const {
+  double remaining(double p) const {
     const double u = p / max_depth;
-    return std::max(1.0 - u * u, least_room);
+    return std::max(1.0 - u * u, least_remaining);
   }
   /// Elastic pressure, N/mm^2, at depth p > 0, mm, of a contact that was `compacted` (mm) deep.
   double pressure(double p, double compacted = 0.0) const {
@@ -113,7 +113,7 @@ struct ContactLaw {
   /// as just touching.
   double tangent(double p) const {
     const double beyond = std::max(p - packed(), 0.0);
-    const double u = beyond / max_depth, q = left(beyond);
+    const double u = beyond / max_depth, q = remaining(beyond);
     const double tangent = stiffness * (1.0 + 3.0 * u * u) / (q * q * q);
     if (!loading) return tangent;
     const double inside = std::clamp(p, 0.0, packed());
@@ -124,11 +124,11 @@ struct ContactLaw {
     return beyond > 0.0 ? steepest + tangent : steepest;
   }
   /// Elastic energy per area, N/mm, at depth p > 0, mm, of a law without a curve.
-  double energy(double p) const { return 0.5 * stiffness * p * p / left(p); }
+  double energy(double p) const { return 0.5 * stiffness * p * p / remaining(p); }
 
 private:
   double barrier(double p) const {
-    const double q = left(p);
+    const double q = remaining(p);
     return stiffness * p / (q * q);
   }
   /// (C).

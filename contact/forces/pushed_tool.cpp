@@ -38,7 +38,7 @@ struct Pressed {
   /// Spares the law's branches: most of a pushed tool's time.
   std::pair<double, double> on_barrier(double depth) const {
     const double u = depth * per_depth, u2 = u * u;
-    const double per_room = 1.0 / std::max(1.0 - u2, least_room);
+    const double per_room = 1.0 / std::max(1.0 - u2, least_remaining);
     const double rate = area * law->stiffness * per_room * per_room;
     return {rate * depth, rate * per_room * (1.0 + 3.0 * u2)};
   }

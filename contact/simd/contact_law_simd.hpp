@@ -143,7 +143,7 @@ PLYFORM_INLINE Vectors into_plane(const Vectors& s, const Vectors& n) {
 
 /// q of contact/forces/contact_law.hpp at `depth` (mm) beyond the densest packing.
 PLYFORM_INLINE Doubles room_of(const ContactKernelLaw& k, Doubles depth) {
-  return larger(1.0 - depth * depth * k.per_depth2, all(least_room));
+  return larger(1.0 - depth * depth * k.per_depth2, all(least_remaining));
 }
 
 /// Pressure (N/mm^2) and work per area (N/mm) of a curve at a depth (mm), held beyond its ends.

@@ -16,7 +16,7 @@ namespace plyform {
 /// Lower limit of q in (E), (N) and (K) of contact/forces/contact_law.hpp, and the ratio
 /// u = p / delta at which q reaches it. A contact deeper than that is a fault that ends the run;
 /// the limit only keeps its force finite.
-constexpr double least_room = 1e-3, deepest_valid = 0.9995;
+constexpr double least_remaining = 1e-3, deepest_valid = 0.9995;
 
 /// Share of its remaining depth by which a contact may deepen in a step, at a depth of u:
 /// step_share + shallow_share (1 - u)^5. From any depth the stiffness (K) then grows by 2.3 to 2.4

@@ -5,11 +5,8 @@
 
 #include "core/solver/force_kinds.hpp"
 
-#include <array>
-#include <cstddef>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace plyform {
