@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Scenes that cannot work, and what `plyform check` says to each, as a page:
 #   tests/cli/cannot_work.sh PROGRAM > docs/verification/cannot_work.md
-#   tests/cli/cannot_work.sh PROGRAM PAGE [N]  # answers 1 if the page is another; N: asks every Nth scene
+#   tests/cli/cannot_work.sh PROGRAM PAGE   # answers 1 if the page is another
 set -euo pipefail
-program=$1 page=${2:-} every=${3:-1}
+program=$1 page=${2:-}
 data=$(cd "$(dirname "${BASH_SOURCE[0]}")/../data/cannot_work" && pwd)
 
 # said CHANGE...: errors and warnings, shortened to what the user reads after the place.
@@ -26,23 +26,17 @@ What `plyform check` says to each, made by `tests/cli/cannot_work.sh` and held b
 | what is wrong | change | `plyform check` |
 |---|---|---|
 END
-  local title changes list row=0
+  local title changes list
   while IFS='|' read -r title changes; do
     [[ -n $title && $title != \#* ]] || continue
-    ((row++ % every == 0)) || continue
     read -ra list <<<"$changes"
     printf '| %s | %s | %s |\n' "${title% }" "${list[*]:+\`${list[*]}\`}" \
       "$(said "${list[@]+"${list[@]}"}")"
   done <"$data/scenes.txt"
 }
 
-# The page with the rows that are asked for.
-part_of_page() {
-  awk -v every="$every" '!/^\| / || /^\| what/ || row++ % every == 0' "$page"
-}
-
 if [ -z "$page" ]; then
   make_page
 else
-  diff -u <(part_of_page) <(make_page) || { echo "$page is stale: make it anew"; exit 1; }
+  diff -u "$page" <(make_page) || { echo "$page is stale: make it anew"; exit 1; }
 fi
