@@ -183,8 +183,9 @@ struct Membrane {
   /// t, of the cloth alone at a node.
   double cloth_mass(std::size_t n) const { return fabric.surface_density * node_area[n]; }
   /// What a law of its yarns is asked. per_dt: 1/s, inverse of the simulated step.
-  LawInput input(double strain, double per_dt, const LawPoint& cell = {}) const {
-    return {strain, per_dt, per_dt / process_time, cell};
+  LawInput input(double strain, double per_dt, const LawPoint& cell = {},
+                 double time_factor = 1.0) const {
+    return {strain, per_dt, per_dt / process_time, cell, time_factor};
   }
   int groups() const { return static_cast<int>(group_begin.size()) - 1; }
 };
@@ -264,8 +265,10 @@ std::vector<std::vector<double>> yarn_strains(const Membrane& m, std::span<const
 /// their strain. Those of pairs oscillate from pair to pair, as do the multipliers of any element
 /// with as many constraints as degrees of freedom: they are smoothed by two passes of nodal
 /// averages, as is usual for the pressures of such elements (docs/verification/locking.md). Of
-/// stitches that are whole, and not smoothed: they are soft. x: mm, n.
-std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
+/// stitches that are whole, and not smoothed: they are soft. x: mm, n. states: what yarns remember,
+/// as memory_at_start, for those with rates; empty: elastic tensions.
+std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<const Vec3> x,
+                                               std::span<const YarnMemory> states = {});
 
 /// Whether a triangle has collapsed: shrunk to a tenth along an axis, or the axes within 1.1
 /// degrees of parallel, which a triangle that inverts in its plane passes through. Limits:
@@ -274,8 +277,9 @@ bool collapsed(const AxesState& state);
 
 /// Report of a force computation over some groups.
 struct GroupReport {
-  double lost = 0.0;      ///< N mm, dissipated by the yarns in the step that led to x
+  double lost = 0.0;      ///< N mm, dissipated by damping of the yarns in the step that led to x
   double torn = 0.0;      ///< N mm, stored before in stitches that broke in it
+  double flowed = 0.0;    ///< N mm, dissipated in it by laws of yarns with rates
   bool collapsed = false; ///< whether a triangle has collapsed
 };
 

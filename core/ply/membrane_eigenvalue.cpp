@@ -54,7 +54,7 @@ OfFamilies yarn_stiffness(const Membrane& m) {
   OfFamilies k{};
   for (std::size_t a = 0; a < m.families.size(); ++a) {
     const MembraneFamily& f = m.families[a];
-    const double pulled = f.yarn.largest_slope() + (f.crimped ? f.yarn.compression : 0.0);
+    const double pulled = bound_of(f.law()).slope;
     k[a] = f.density * std::max(pulled, f.yarn.compression + f.side.collapse_penalty);
   }
   return k;
@@ -105,7 +105,9 @@ double soft_stiffness(const Membrane& m, const TriangleState& t) {
   for (std::size_t a = 0; a < m.families.size(); ++a) {
     const MembraneFamily& f = m.families[a];
     const double lambda = t.yarn[a].lambda;
-    const double n = std::max(0.0, f.density * tension[a] / lambda);
+    // what relaxes pulls as if it had not yet
+    const double pulled = tension[a] + bound_of(f.law()).unrelaxed * std::max(0.0, strain[a]);
+    const double n = std::max(0.0, f.density * pulled / lambda);
     if (f.along == Vec2::UnitX())
       pull[0] += n;
     else if (f.along == Vec2::UnitY())

@@ -158,6 +158,21 @@ void group_forces(const Membrane& m, const GroupState& s, const OfFamilies& n,
   }
 }
 
+/// N, of the yarns of a family in each triangle at these strains with what they remember, after no
+/// time.
+std::vector<double> remembered_tensions(const Membrane& m, const std::vector<double>& strain,
+                                        std::span<const YarnMemory> states, std::size_t family) {
+  std::vector<double> tension(strain.size());
+  for (int p = 0; p < m.groups(); ++p)
+    for (std::size_t e = at(m.group_begin[at(p)]); e < at(m.group_begin[at(p) + 1]); ++e) {
+      YarnMemory next{}; // of no use: this is no step
+      tension[e] = answer_of(m.families[family].law(), m.input(strain[e], 0.0),
+                             states[at(p) * m.families.size() + family].data(), next.data())
+                       .value;
+    }
+  return tension;
+}
+
 } // namespace
 
 GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin,
@@ -177,6 +192,7 @@ GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt
                     states.begin[at_state].data(), states.end[at_state].data());
       n[a] = answer.value;
       (f.stitch ? report.torn : report.lost) += s.area * f.density * answer.lost;
+      report.flowed += s.area * f.density * answer.flowed;
     }
     group_forces(m, s, n, q);
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i)
@@ -243,8 +259,12 @@ std::vector<std::vector<double>> yarn_strains(const Membrane& m, std::span<const
   return strains;
 }
 
-std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<const Vec3> x) {
-  std::vector<std::vector<double>> tensions = yarn_strains(m, x);
+std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<const Vec3> x,
+                                               std::span<const YarnMemory> states) {
+  std::vector<std::vector<double>> tensions = yarn_strains(m, x), with_rates(m.families.size());
+  for (std::size_t a = 0; a < m.families.size() && !states.empty(); ++a)
+    if (has_rates(m.families[a].law()))
+      with_rates[a] = remembered_tensions(m, tensions[a], states, a);
   std::vector<std::size_t> paired;
   for (std::size_t p = 0; p + 1 < m.group_begin.size(); ++p)
     for (int e = m.group_begin[p]; e < m.group_begin[p + 1]; ++e)
@@ -257,7 +277,7 @@ std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<cons
       strain[a] = tensions[a][e];
     const OfFamilies tension = elastic_tensions(m, strain);
     for (std::size_t a = 0; a < m.families.size(); ++a)
-      tensions[a][e] = tension[a];
+      tensions[a][e] = with_rates[a].empty() ? tension[a] : with_rates[a][e];
   }
   for (std::size_t a = 0; a < m.families.size(); ++a) {
     if (m.families[a].stitch) continue; // no multipliers

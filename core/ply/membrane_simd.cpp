@@ -116,21 +116,29 @@ private:
 static_assert(most_yarn_states >= yarn_states);
 static_assert(most_kernel_families == most_families && most_kernel_crossings == most_crossings);
 
+/// What temperatures make of the times of four yarns whose pack's states are these.
+SimdNumbers time_factors_of(const KernelLaw& law, const SimdYarnStates* begin) {
+  if (!law.time_factors) return {{1.0, 1.0, 1.0, 1.0}};
+  return law.time_factors[(begin - law.states) / (law.families + law.stitches)];
+}
+
 void evaluate_yarns(const KernelLaw& law, int family, double per_dt, const double* strain,
-                    const double (*begin)[simd_width], double (*end)[simd_width],
+                    const SimdYarnStates* begin, double (*end)[simd_width],
                     KernelAnswers& answers) {
   const MembraneFamily& of = law.membrane->families[at(family)];
   const AnyYarnLaw yarns = of.law();
   const double d = of.density;
+  const SimdNumbers factors = time_factors_of(law, begin);
   for (std::size_t i = 0; i < simd_width; ++i) {
     std::array<double, yarn_states> now{}, next{};
     for (std::size_t k = 0; k < now.size(); ++k)
-      now[k] = begin[k][i];
-    const LawAnswer a =
-        answer_of(yarns, law.membrane->input(strain[i], per_dt), now.data(), next.data());
+      now[k] = begin[family].of[k][i];
+    const LawAnswer a = answer_of(yarns, law.membrane->input(strain[i], per_dt, {}, factors.of[i]),
+                                  now.data(), next.data());
     for (std::size_t k = 0; k < next.size(); ++k)
       end[k][i] = next[k];
-    answers.value[i] = d * a.value, answers.stored[i] = d * a.stored, answers.lost[i] = d * a.lost;
+    answers.value[i] = d * a.value, answers.stored[i] = d * a.stored;
+    answers.lost[i] = d * a.lost, answers.flowed[i] = d * a.flowed;
   }
 }
 
@@ -208,7 +216,7 @@ KernelYarns kernel_yarns(const MembraneFamily& f) {
   k.viscosity = f.density * f.viscosity;
   k.stabilisation = f.density * f.side.stabilisation;
   k.collapse_penalty = f.density * f.side.collapse_penalty;
-  k.by_law = !f.yarn.linear();
+  k.by_law = !f.yarn.linear() || has_rates(f.law());
   if (f.stitch) {
     k.taut_at = 1.0 + f.stitch->taut_at;
     k.breaks = std::isfinite(f.stitch->breaking_force);
@@ -261,7 +269,7 @@ KernelCrossing kernel_crossing(const Membrane& m, const MembraneCrossing& c) {
 }
 
 KernelLaw kernel_law(const Membrane& m, const MembraneSimd& l,
-                     std::span<const SimdNumbers> shear_factors) {
+                     std::span<const SimdYarnStates> states, const LawFactors& factors) {
   KernelLaw law; // only as many families and crossings are set as there are
   law.families = static_cast<int>(m.fabric.families.size());
   law.stitches = static_cast<int>(m.fabric.stitches.size());
@@ -279,7 +287,9 @@ KernelLaw kernel_law(const Membrane& m, const MembraneSimd& l,
               law.crossing[0].first == 0 && law.crossing[0].second == 1;
   law.beta = deviation_weight, law.side_cubic = side_cubic;
   law.viscous = nullptr;
-  law.shear_factors = shear_factors.empty() ? nullptr : shear_factors.data();
+  law.shear_factors = factors.shear.empty() ? nullptr : factors.shear.data();
+  law.time_factors = factors.times.empty() ? nullptr : factors.times.data();
+  law.states = states.data();
   law.first = l.triangles->data();
   law.membrane = &m;
   law.evaluate = evaluate_yarns;
@@ -362,32 +372,44 @@ std::vector<double> remembered_of(const MembraneSimd& l, const Membrane& m,
   return of;
 }
 
+std::vector<YarnMemory> memory_of(const MembraneSimd& l, const Membrane& m,
+                                  std::span<const SimdYarnStates> states) {
+  const std::size_t families = m.families.size();
+  std::vector<YarnMemory> of(at(m.groups()) * families);
+  for (std::size_t i = 0; i < l.groups.size(); ++i)
+    for (std::size_t a = 0; a < families && l.groups[i] >= 0; ++a)
+      for (std::size_t k = 0; k < yarn_states; ++k)
+        of[at(l.groups[i]) * families + a][k] =
+            states[i / simd_width * families + a].of[k][i % simd_width];
+  return of;
+}
+
 GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block, const LawStates<SimdYarnStates>& states,
-                        const KernelViscous* viscous, std::span<const SimdNumbers> shear_factors) {
+                        const KernelViscous* viscous, const LawFactors& factors) {
   const SimdBlock& b = l.blocks[block];
   const KernelBlock kernel = kernel_block(l, m, b, states, l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_kernel_generic, membrane_kernel_avx2, membrane_kernel_avx512);
-  KernelLaw law = kernel_law(m, l, shear_factors);
+  KernelLaw law = kernel_law(m, l, states.begin, factors);
   law.viscous = viscous;
   const KernelReport report = run(kernel, law, x.data()->data(), per_dt);
-  return {report.lost, report.torn, report.collapsed};
+  return {report.lost, report.torn, report.flowed, report.collapsed};
 }
 
 MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
                            double dt, int block, std::span<const SimdYarnStates> begin,
-                           std::span<const SimdNumbers> shear_factors) {
+                           const LawFactors& factors) {
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const KernelEnergy energy =
-      energy_by(kernel_law(m, l, shear_factors), l, m, x, per_dt, block, begin);
+      energy_by(kernel_law(m, l, begin, factors), l, m, x, per_dt, block, begin);
   return {energy.fibre, energy.shear, energy.stitch};
 }
 
 double simd_shear_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
                          int block, std::span<const SimdYarnStates> begin,
                          std::span<const SimdNumbers> factors) {
-  KernelLaw law = kernel_law(m, l, factors);
+  KernelLaw law = kernel_law(m, l, begin, {factors, {}});
   law.sheet = false; // its energy counts as shear
   return energy_by(law, l, m, x, 0.0, block, begin).shear;
 }

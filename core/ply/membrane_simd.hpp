@@ -48,6 +48,12 @@ void each_place(const MembraneSimd& simd, const Membrane& m, const Each& each) {
   }
 }
 
+/// What temperatures make of laws; each empty: 1.
+struct LawFactors {
+  std::span<const SimdNumbers> shear; ///< of Cs, in the order of MembraneSimd::triangles
+  std::span<const SimdNumbers> times; ///< of the times of yarns, of the groups of each pack
+};
+
 /// Whether the kernel can compute this membrane: only if it has yarns.
 bool fits_simd(const Membrane& m);
 
@@ -64,21 +70,23 @@ std::vector<double> remembered_of(const MembraneSimd& simd, const Membrane& m,
                                   std::span<const SimdYarnStates> states, std::size_t family,
                                   std::size_t state);
 
+/// The same of all families, as memory_at_start.
+std::vector<YarnMemory> memory_of(const MembraneSimd& simd, const Membrane& m,
+                                  std::span<const SimdYarnStates> states);
+
 /// Internal forces (F), N, of a block's groups, viscous ones included, stored in simd.force;
 /// simd_force (core/ply/block_forces.hpp) sums them. x: mm, n; dt, states (as at start)
 /// and report: as of element_forces (core/ply/membrane.hpp). viscous: laws with rates
-/// (kernel_viscous of core/ply/viscous_simd.hpp), or null. shear_factors: what temperatures make of
-/// Cs, in the order of `triangles`; empty: 1.
+/// (kernel_viscous of core/ply/viscous_simd.hpp), or null.
 GroupReport simd_forces(MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block, const LawStates<SimdYarnStates>& states,
-                        const KernelViscous* viscous = nullptr,
-                        std::span<const SimdNumbers> shear_factors = {});
+                        const KernelViscous* viscous = nullptr, const LawFactors& factors = {});
 
 /// (E) of a block's groups, N mm; summed over the blocks it is membrane_energy. x: mm, n; begin:
-/// what yarns remember of the begin of the step dt (s). shear_factors: as simd_forces.
+/// what yarns remember of the begin of the step dt (s).
 MembraneEnergy simd_energy(const MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x,
                            double dt, int block, std::span<const SimdYarnStates> begin,
-                           std::span<const SimdNumbers> shear_factors = {});
+                           const LawFactors& factors = {});
 
 /// sum over the triangles of a block of A0 sum_c n_c Es of (E), N mm, each triangle's times its
 /// factor.

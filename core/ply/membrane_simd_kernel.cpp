@@ -247,7 +247,7 @@ PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelL
                   else
                     single_packs<Of, general>(w, *t, *s, needs_penalty, states);
                 });
-  return {0.5 * sum(w.lost), 0.5 * sum(w.torn), any(collapsed)};
+  return {0.5 * sum(w.lost), 0.5 * sum(w.torn), sum(w.flowed), any(collapsed)};
 }
 
 /// (E) of the triangles of some packs without the yarns, N mm.

@@ -32,9 +32,10 @@ struct alignas(32) SimdYarnStates {
   double of[most_yarn_states][simd_width];
 };
 
-/// Answers of a law at four points, times d_a: tension (N/mm), energy stored (N/mm), lost (N/mm).
+/// Answers of a law at four points, times d_a: tension, energy stored, lost and flowed, N/mm
+/// (LawAnswer).
 struct alignas(32) KernelAnswers {
-  double value[simd_width], stored[simd_width], lost[simd_width];
+  double value[simd_width], stored[simd_width], lost[simd_width], flowed[simd_width];
 };
 
 /// Answers of a sheet's law at four points: stresses S_11, S_22, S_12 with respect to the material
@@ -98,10 +99,14 @@ struct KernelLaw {
   /// null: 1.
   const SimdNumbers* shear_factors;
   const SimdTriangles* first;
-  /// Four yarns of a family. begin, end: SimdYarnStates::of; per_dt: 1/s.
+  /// What temperatures make of the times of yarns, of the groups of each pack, of which the states
+  /// begin at `states`; null: 1.
+  const SimdNumbers* time_factors;
+  const SimdYarnStates* states;
+  /// Four yarns of a family. begin: of all families of their pack; end: SimdYarnStates::of; per_dt:
+  /// 1/s.
   void (*evaluate)(const KernelLaw&, int family, double per_dt, const double* strain,
-                   const double (*begin)[simd_width], double (*end)[simd_width],
-                   KernelAnswers& answers);
+                   const SimdYarnStates* begin, double (*end)[simd_width], KernelAnswers& answers);
   /// Four yarns of each family, by family.
   void (*evaluate_cells)(const KernelLaw&, double per_dt, const double (*strain)[simd_width],
                          const SimdYarnStates* begin, SimdYarnStates* end, KernelAnswers* answers);
@@ -129,7 +134,7 @@ struct KernelBlock {
 };
 
 struct KernelReport {
-  double lost, torn; ///< N mm, in the step: as GroupReport
+  double lost, torn, flowed; ///< N mm, in the step: as GroupReport
   bool collapsed;
 };
 

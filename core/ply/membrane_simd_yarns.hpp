@@ -19,9 +19,10 @@ struct SimdBlockWork {
   const KernelLaw& law;
   const SimdLaw<Of>& lane;
   double* force;
-  double per_dt; ///< 1/s, as of membrane_kernel
-  Double4 lost;  ///< twice the work lost
-  Double4 torn;  ///< N mm, likewise, of stitches
+  double per_dt;    ///< 1/s, as of membrane_kernel
+  Double4 lost;     ///< twice the work lost
+  Double4 torn;     ///< N mm, likewise, of stitches
+  Double4 flowed{}; ///< N mm, lost by rates of the process
 };
 
 /// Compressive strain beyond the buckling strain; 0 for yarns that have not buckled.
@@ -65,31 +66,39 @@ PLYFORM_INLINE Doubles find_cells(const SimdBlockWork<Of>& w, const Doubles* mea
   return energy;
 }
 
+/// What a law loses, N/mm.
+struct LostByLaw {
+  Doubles lost, flowed;
+};
+
 /// Answers of a family's law for some packs, whatever it is; `values`: which of them is returned.
 /// end: where it writes what it remembers.
 template <class Of, class End>
 PLYFORM_INLINE Doubles by_law(const SimdBlockWork<Of>& w, int family, Doubles strain,
                               const OfQuads<const SimdYarnStates>& begin, const End& end,
-                              double (KernelAnswers::*values)[simd_width], Doubles* lost) {
-  alignas(sizeof(Doubles)) double strains[lanes], value[lanes] = {}, losses[lanes] = {};
+                              double (KernelAnswers::*values)[simd_width], LostByLaw* lost) {
+  alignas(sizeof(Doubles)) double strains[lanes], value[lanes] = {};
+  alignas(sizeof(Doubles)) double losses[lanes] = {}, flows[lanes] = {};
   store_lanes(strains, strain);
   for (int q = 0; q < begin.count; ++q) {
     KernelAnswers answers;
-    w.law.evaluate(w.law, family, w.per_dt, strains + simd_width * q, begin.of[q][family].of,
-                   end(q), answers);
+    w.law.evaluate(w.law, family, w.per_dt, strains + simd_width * q, begin.of[q], end(q), answers);
     for (int i = 0; i < simd_width; ++i) {
       value[simd_width * q + i] = (answers.*values)[i];
       losses[simd_width * q + i] = answers.lost[i];
+      flows[simd_width * q + i] = answers.flowed[i];
     }
   }
-  if (lost) *lost = numbers([&](int q) { return losses + simd_width * q; });
+  if (lost)
+    *lost = {numbers([&](int q) { return losses + simd_width * q; }),
+             numbers([&](int q) { return flows + simd_width * q; })};
   return numbers([&](int q) { return value + simd_width * q; });
 }
 
-/// The tension of a family by its law, d_a N, N/mm; lost: what it loses, N/mm.
+/// The tension of a family by its law, d_a N, N/mm; lost: what it loses.
 template <class Of>
 PLYFORM_INLINE Doubles tension_by_law(const SimdBlockWork<Of>& w, int family,
-                                      const StatesOfQuads& v, Doubles mean, Doubles& lost) {
+                                      const StatesOfQuads& v, Doubles mean, LostByLaw& lost) {
   return by_law(
       w, family, mean - 1.0, v.begin, [&](int q) { return v.end.of[q][family].of; },
       &KernelAnswers::value, &lost);
@@ -141,14 +150,15 @@ PLYFORM_INLINE void tensions_of_cells(SimdBlockWork<Of>& w, const StatesOfQuads&
 template <class Of, bool general>
 PLYFORM_INLINE void yarn_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v, const Doubles* mean,
                                   Doubles area, Doubles* n) {
-  Doubles now[Of::most_families], work = all(0.0), cells[Of::most_families];
+  Doubles now[Of::most_families], work = all(0.0), flow = all(0.0), cells[Of::most_families];
   if (general && w.law.crimped) find_cells(w, mean, cells);
   for_families<Of>(w.law.families, [&](auto a) {
     if (general && w.law.yarns[a].by_law) {
-      Doubles lost;
+      LostByLaw lost;
       n[a] = tension_by_law(w, a, v, mean[a], lost);
       now[a] = all(0.0);
-      work += lost + lost;
+      work += lost.lost + lost.lost;
+      flow += lost.flowed;
       return;
     }
     n[a] = yarn_tension<Of, general>(w, a, mean[a] - 1.0);
@@ -157,9 +167,10 @@ PLYFORM_INLINE void yarn_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v, 
     now[a] = n[a] > 0.0 ? w.lane.yarns[a].viscosity * change : all(0.0);
     work += (now[a] + remembered(v, a, 1)) * change;
   });
-  const Doubles lost = area * work;
+  const Doubles lost = area * work, flowed = area * flow;
   for (int q = 0; q < v.end.count; ++q) {
     w.lost += quad(lost, q);
+    if (general) w.flowed += quad(flowed, q);
     for_families<Of>(w.law.families, [&](auto a) {
       if (general && w.law.yarns[a].by_law) return;
       SimdYarnStates& end = v.end.of[q][a];
@@ -187,9 +198,9 @@ PLYFORM_INLINE void stitch_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v
   Doubles torn = all(0.0);
   for_stitches<Of>(w.law, [&](auto a) {
     if (general && w.law.yarns[a].by_law) {
-      Doubles lost;
+      LostByLaw lost;
       n[a] = tension_by_law(w, a, v, mean[a], lost);
-      torn += lost + lost;
+      torn += lost.lost + lost.lost;
       return;
     }
     Doubles beyond;

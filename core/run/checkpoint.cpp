@@ -85,7 +85,7 @@ void restore(Scene& s, const Snapshot& snapshot) {
   s.boundaries = snapshot.boundaries;
   static_cast<ElementState&>(s) = snapshot.elements;
   static_cast<SceneProgress&>(s) = snapshot.progress;
-  for (std::vector<double>* lost : {&s.group_lost, &s.group_torn}) // of a step that was not taken
+  for (std::vector<double>* lost : {&s.group_lost, &s.group_torn, &s.group_flowed}) // no step's
     std::fill(lost->begin(), lost->end(), 0.0);
 }
 

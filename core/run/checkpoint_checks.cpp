@@ -313,7 +313,8 @@ void check_sums(const SceneProgress& p, const ElementState& elements, std::size_
              sound(p.mass_scaling_work) && p.largest_added_mass >= 0.0 &&
              sound(p.largest_added_mass),
          "sums of the run");
-  for (const std::vector<double>* sums : {&elements.group_sums, &elements.torn_sums})
+  for (const std::vector<double>* sums :
+       {&elements.group_sums, &elements.torn_sums, &elements.flowed_sums})
     expect(sums->size() == blocks && all_sound(*sums), "sums of the elements");
 }
 

@@ -46,7 +46,9 @@ std::vector<FamilyFrame> family_frames(const PlyBody& ply,
       frames.push_back({axis.name, in_degrees(ply.angle + axis.angle), {}, {}, none});
     return frames;
   }
-  std::vector<std::vector<double>> tensions = yarn_tensions(m, ply.x);
+  std::vector<YarnMemory> memory;
+  if (has_rates_of_yarns(m.fabric)) memory = memory_of(*ply.simd, m, ply.yarns);
+  std::vector<std::vector<double>> tensions = yarn_tensions(m, ply.x, memory);
   for (std::size_t a = 0; a < frames.size(); ++a) {
     frames[a].strain = std::move(strains[a]);
     frames[a].tension = std::move(tensions[a]);

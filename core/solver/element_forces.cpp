@@ -20,7 +20,7 @@ MembraneEnergy energy_of(const Layup& layup, const Block& block) {
   const PlyBody& ply = layup.plies[at(block.ply)];
   if (ply.simd)
     return simd_energy(*ply.simd, ply.membrane, ply.x, layup.dt, block.begin, ply.yarns,
-                       ply.shear_factors);
+                       ply.law_factors());
   return block.begin > 0 ? MembraneEnergy{} : membrane_energy(ply.membrane, ply.x); // of all blocks
 }
 
@@ -65,10 +65,11 @@ void ElementForces::run(Layup& layup, int task) {
   const std::optional<KernelViscous> viscous = viscous_of(layup, ply);
   const GroupReport report =
       ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, layup.dt, block.begin,
-                             {ply.yarns, ply.yarns_end}, pointer_to(viscous), ply.shear_factors)
+                             {ply.yarns, ply.yarns_end}, pointer_to(viscous), ply.law_factors())
                : element_forces(ply.membrane, ply.x, layup.dt, block.begin, block.end, {}, ply.q);
   group_lost[at(task)] = report.lost;
   group_torn[at(task)] = report.torn;
+  group_flowed[at(task)] = report.flowed;
   group_collapsed[at(task)] = report.collapsed;
 }
 
@@ -85,6 +86,7 @@ void ElementForces::end_step(Layup& layup) {
   for (std::size_t b = 0; b < group_sums.size(); ++b) {
     group_sums[b] += std::exchange(group_lost[b], 0.0);
     torn_sums[b] += std::exchange(group_torn[b], 0.0);
+    flowed_sums[b] += std::exchange(group_flowed[b], 0.0);
   }
 }
 
@@ -100,7 +102,7 @@ void ElementForces::add_energies(const Layup& layup, ThreadPool& pool, Energies&
   for (const MembraneEnergy& block : of)
     e.fibre += block.fibre, e.shear += block.shear, e.stitch += block.stitch;
   for (std::size_t b = 0; b < of.size(); ++b)
-    e.damping += lost(b), e.stitch_breaking += torn(b);
+    e.damping += lost(b), e.stitch_breaking += torn(b), e.viscous += flowed(b);
   for (const PlyBody& ply : layup.plies) {
     if (!ply.viscous) continue;
     const ViscousEnergy viscous = viscous_energy(*ply.viscous, ply.membrane, ply.viscous_now());

@@ -232,25 +232,45 @@ std::vector<double> cooled(const PlyBody& ply, const Faces& faces, double air, d
   return celsius;
 }
 
-/// A law's factors of triangles, at the mean temperature of their nodes, in the kernel's order.
+/// degC, mean of the nodes of a triangle.
+double temperature_of(const PlyBody& ply, std::size_t triangle) {
+  double celsius = 0.0;
+  for (const std::int32_t node : ply.membrane.triangles[triangle])
+    celsius += ply.temperature[at(node)] / 3.0;
+  return celsius;
+}
+
+/// A law's factors of triangles, in the kernel's order.
 void find_factors(const PlyBody& ply, const TemperatureFactor& law, PackedStates& factors) {
   if (factors.empty()) return;
   std::vector<double> of;
   of.reserve(ply.membrane.triangles.size());
-  for (const Triangle& t : ply.membrane.triangles) {
-    double celsius = 0.0;
-    for (const std::int32_t node : t)
-      celsius += ply.temperature[at(node)] / 3.0;
-    of.push_back(law.at(celsius));
-  }
+  for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e)
+    of.push_back(law.at(temperature_of(ply, e)));
   pack(*ply.simd, ply.membrane, of, factors);
 }
 
-/// What the temperatures of a time (s) make of viscosities and of elastic shear.
+/// A law's factors of strain groups, at the means of their area, in the kernel's order.
+void find_factors_of_groups(const PlyBody& ply, const TemperatureFactor& law,
+                            PackedStates& factors) {
+  if (factors.empty()) return;
+  const Membrane& m = ply.membrane;
+  for (std::size_t i = 0; i < ply.simd->groups.size(); ++i) {
+    const std::int32_t group = ply.simd->groups[i];
+    if (group < 0) continue;
+    double area = 0.0, celsius = 0.0;
+    for (std::size_t e = at(m.group_begin[at(group)]); e < at(m.group_begin[at(group) + 1]); ++e)
+      area += m.area[e], celsius += m.area[e] * temperature_of(ply, e);
+    factors[i / simd_width].of[i % simd_width] = law.at(celsius / area);
+  }
+}
+
+/// What the temperatures of a time (s) make of laws.
 void find_all_factors(PlyBody& ply, double time) {
   if (ply.flow_time == time) return;
   const TemperatureFactor& flow = ply.membrane.fabric.flow;
   find_factors(ply, flow, ply.flow_factors);
+  find_factors_of_groups(ply, flow, ply.time_factors);
   find_factors(ply, ply.membrane.fabric.shear_over_temperature, ply.shear_factors);
   if (!ply.node_flow_factors.empty()) {
     std::vector<double> of;

@@ -86,15 +86,17 @@ struct NoForce {
 
 /// What is kept of the elements' past: N mm, in the steps taken, one per group block.
 struct ElementState {
-  std::vector<double> group_sums; ///< lost by yarns
-  std::vector<double> torn_sums;  ///< that stitches had stored when they broke
+  std::vector<double> group_sums;  ///< lost by yarns
+  std::vector<double> torn_sums;   ///< that stitches had stored when they broke
+  std::vector<double> flowed_sums; ///< lost by rates of yarns
 };
 
 template <class F>
 void each_member(ElementState& elements, F&& f) {
-  auto& [group_sums, torn_sums] = elements;
+  auto& [group_sums, torn_sums, flowed_sums] = elements;
   f("group_sums", group_sums);
   f("torn_sums", torn_sums);
+  f("flowed_sums", flowed_sums);
 }
 
 /// Membranes of plies, with their laws of rates, whose forces the same kernel computes: what these
@@ -102,8 +104,9 @@ void each_member(ElementState& elements, F&& f) {
 struct ElementForces : NoForce, ElementState {
   static constexpr int begun = 2, summed = 2;
   std::vector<Block> group_blocks;
-  std::vector<double> group_lost, group_torn; ///< as the sums, in the step computed, until taken
-  std::vector<char> group_collapsed;          ///< whether a triangle has collapsed
+  /// As the sums, in the step computed, until taken.
+  std::vector<double> group_lost, group_torn, group_flowed;
+  std::vector<char> group_collapsed; ///< whether a triangle has collapsed
 
   int tasks(const Layup&) const { return static_cast<int>(group_blocks.size()); }
   double place(const Layup& layup, int task) const;
@@ -122,6 +125,8 @@ struct ElementForces : NoForce, ElementState {
   double lost(std::size_t block) const { return group_sums[block] + group_lost[block]; }
   /// N mm, likewise: what its stitches had stored when they broke.
   double torn(std::size_t block) const { return torn_sums[block] + group_torn[block]; }
+  /// N mm, likewise: lost by rates of yarns.
+  double flowed(std::size_t block) const { return flowed_sums[block] + group_flowed[block]; }
   /// Elastic energy of one ply, N mm.
   double elastic(const Layup& layup, std::size_t ply) const;
 };

@@ -147,9 +147,9 @@ struct PlyCache {
   std::vector<SimdYarnStates> yarns_end;
   PackedStates viscous_end, bending_end;                 ///< likewise, of states of laws with rates
   bool viscous_stepped = false, bending_stepped = false; ///< whether of the step that was computed
-  /// What temperatures make of viscosities, of each triangle and of each node, and of elastic
-  /// shear; empty: nothing.
-  PackedStates flow_factors, node_flow_factors, shear_factors;
+  /// What temperatures make of viscosities, of each triangle and of each node, of elastic shear,
+  /// and of the times of yarns of each strain group; empty: nothing.
+  PackedStates flow_factors, node_flow_factors, shear_factors, time_factors;
   /// s, SceneProgress::cooled_until of the temperatures that they are of.
   double flow_time = std::numeric_limits<double>::quiet_NaN();
 };
@@ -162,7 +162,7 @@ void each_array(PlyCache& ply, F&& f) {
          thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
          borne_load, area_now, last_load_work, last_ratio, squeeze, thickness_force, pressed,
          yarns_end, viscous_end, bending_end, viscous_stepped, bending_stepped, flow_factors,
-         node_flow_factors, shear_factors, flow_time] = ply;
+         node_flow_factors, shear_factors, time_factors, flow_time] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);
@@ -183,6 +183,7 @@ void each_array(PlyCache& ply, F&& f) {
 
 /// A ply in motion.
 struct PlyBody : PlyModel, PlyState, PlyCache {
+  LawFactors law_factors() const { return {shear_factors, time_factors}; }
   SurfaceKinematics state() const {
     return {x,
             motion,

@@ -48,7 +48,7 @@ void add_stored(Layup& layup, const std::vector<Block>& blocks,
     if (before[at(block.ply)].empty()) return;
     for (const std::vector<Vec3>* x : {&ply.x, &before[at(block.ply)]})
       energy[at(i)] += simd_energy(*ply.simd, ply.membrane, *x, layup.dt, block.begin, ply.yarns,
-                                   ply.shear_factors)
+                                   ply.law_factors())
                            .stitch;
   });
   for (std::size_t b = 0; b < energy.size(); ++b)

@@ -71,6 +71,7 @@ void set_temperature(const Case& data, const Ply& ply, PlyBody& body) {
   if (fabric.shear_over_temperature.depends() && body.simd)
     body.shear_factors.assign(body.simd->triangles->size(), one);
   if (!fabric.flow.depends()) return;
+  if (has_rates_of_yarns(fabric)) body.time_factors.assign(at(body.simd->packs), one);
   if (body.viscous) body.flow_factors.assign(body.simd->triangles->size(), one);
   if (body.viscous_bending) body.node_flow_factors.assign(body.bending->stencils.size(), one);
 }
@@ -336,7 +337,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   make_attachments(s);
   s.boundaries.resize(data.boundaries.size());
   s.group_sums.assign(s.group_blocks.size(), 0.0);
-  s.group_lost = s.torn_sums = s.group_torn = s.group_sums;
+  s.group_lost = s.torn_sums = s.group_torn = s.flowed_sums = s.group_flowed = s.group_sums;
   s.group_collapsed.assign(s.group_blocks.size(), 0);
   s.node_sums.assign(s.node_blocks.size(), {});
   return s;

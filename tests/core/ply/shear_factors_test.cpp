@@ -48,7 +48,7 @@ TEST(ShearFactors, AgreeWithTheMembraneOneByOneAndWithItsEnergy) {
         std::vector<SimdYarnStates> of_packs = states_at_start(simd, m);
         std::vector<YarnMemory> of_groups = memory_at_start(m);
         std::vector<ElementForce> q(m.triangles.size());
-        simd_forces(simd, m, x, 0.0, 0, {of_packs, of_packs}, nullptr, packed);
+        simd_forces(simd, m, x, 0.0, 0, {of_packs, of_packs}, nullptr, {packed, {}});
         element_forces(m, x, 0.0, 0, m.groups(), {of_groups, of_groups}, q, factors);
         std::vector<Vec3> fast, slow;
         double largest = 0.0;
@@ -61,7 +61,7 @@ TEST(ShearFactors, AgreeWithTheMembraneOneByOneAndWithItsEnergy) {
           ASSERT_LE((fast[n] - slow[n]).norm(), 1e-11 * largest) << n;
         const auto start = states_at_start(simd, m);
         const MembraneEnergy one = membrane_energy(m, x, {}, 0.0, factors);
-        EXPECT_NEAR(simd_energy(simd, m, x, 0.0, 0, start, packed).shear, one.shear,
+        EXPECT_NEAR(simd_energy(simd, m, x, 0.0, 0, start, {packed, {}}).shear, one.shear,
                     1e-12 * one.shear);
         const std::vector<double> none(factors.size(), 0.0);
         EXPECT_NEAR(simd_shear_energy(simd, m, x, 0, start, packed),
