@@ -125,8 +125,10 @@ struct YarnFamily {
   /// rad, from the ply's angle to these yarns; of a fabric's families within half a turn from the
   /// first one's on
   double angle = 0.0;
-  double density = 0.0;           ///< d, yarns per mm across the yarns
-  TensionLaw tension;             ///< of one yarn
+  double density = 0.0; ///< d, yarns per mm across the yarns
+  TensionLaw tension;   ///< of one yarn
+  /// Beside it, of one yarn, modulus in N: core/model/relaxing_yarn.hpp.
+  std::optional<MaxwellBranch> relaxation;
   MomentLaw bending;              ///< M, per width across the yarns
   double in_plane_bending = 0.0;  ///< D_g, N mm
   double bending_viscosity = 0.0; ///< N mm s, moment per width by the rate of curvature

@@ -47,7 +47,7 @@ struct RateCurve {
 };
 
 struct MaxwellBranch {
-  double modulus = 0.0; ///< G, N mm
+  double modulus = 0.0; ///< G, N mm; of yarns N
   double time = 0.0;    ///< theta, s
   bool operator==(const MaxwellBranch&) const = default;
 };

@@ -2,6 +2,7 @@
 // The laws of yarns and stitches, a file each: what one is asked and answers is in law_input.hpp.
 #pragma once
 
+#include "core/model/relaxing_yarn.hpp"
 #include "core/model/stitch_yarn.hpp"
 #include "core/model/viscous_yarn.hpp"
 
@@ -11,7 +12,7 @@
 namespace plyform {
 
 /// The laws that a yarn or a stitch can have.
-using AnyYarnLaw = std::variant<ViscousYarn, CrimpedYarn, StitchYarn>;
+using AnyYarnLaw = std::variant<ViscousYarn, CrimpedYarn, RelaxingYarn, StitchYarn>;
 
 /// Numbers that are kept for a yarn, and what they are at the start.
 template <class Any>
@@ -35,10 +36,13 @@ inline LawBound bound_of(const AnyYarnLaw& any) {
   return std::visit([](const auto& law) { return law.bound(); }, any);
 }
 
-/// The law of a yarn. viscosity: N s, of the simulation; crimped: in a cell of
-/// core/model/crimp.hpp.
-inline AnyYarnLaw yarn_law(const TensionLaw& elastic, double viscosity, bool crimped = false) {
+/// The law of a yarn, which refers to what it is made of. viscosity: N s, of the simulation;
+/// crimped: in a cell of core/model/crimp.hpp.
+inline AnyYarnLaw yarn_law(const TensionLaw& elastic,
+                           const std::optional<MaxwellBranch>& relaxation, double viscosity,
+                           bool crimped = false) {
   if (crimped) return CrimpedYarn{elastic, viscosity};
+  if (relaxation) return RelaxingYarn{elastic, *relaxation, viscosity};
   return ViscousYarn{elastic, viscosity};
 }
 
@@ -51,7 +55,7 @@ bool has_rates(const std::variant<Laws...>& any) {
 /// The same of any law of tension of a fabric's yarns.
 inline bool has_rates_of_yarns(const Fabric& f) {
   return std::any_of(f.families.begin(), f.families.end(), [](const YarnFamily& family) {
-    return has_rates(yarn_law(family.tension, 0.0));
+    return has_rates(yarn_law(family.tension, family.relaxation, 0.0));
   });
 }
 

@@ -49,7 +49,10 @@ void set_laws(Membrane& m, const Fabric& fabric, const MaterialAxes& axes, doubl
                           effective_softening(f.tension, softening),
                           0.0,
                           {},
-                          {}});
+                          {},
+                          f.relaxation});
+  for (MembraneFamily& f : m.families)
+    if (f.relaxation) f.relaxation->modulus /= f.softening;
   for (const Crossing& c : fabric.crossings) {
     m.crossings.push_back(
         {c.first, c.second, crossing_angle(fabric, c), cells_per_area(fabric, c), c.shear});
@@ -71,7 +74,8 @@ void set_laws(Membrane& m, const Fabric& fabric, const MaterialAxes& axes, doubl
   for (std::size_t a = 0; a < m.families.size(); ++a)
     m.families[a].side = side_stiffness(m, a);
   for (const Stitch& s : fabric.stitches)
-    m.families.push_back({axes.components(s.angle), s.density, s.law.tension, 1.0, 0.0, {}, s.law});
+    m.families.push_back(
+        {axes.components(s.angle), s.density, s.law.tension, 1.0, 0.0, {}, s.law, {}});
 }
 
 } // namespace

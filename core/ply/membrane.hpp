@@ -115,13 +115,14 @@ struct MembraneFamily {
   double softening = 1.0; ///< by this: effective_softening
   double viscosity = 0.0; ///< eta, N s per yarn, in tension only: N += eta d(eps)/dt
   SideStiffness side;
-  std::optional<StitchLaw> stitch; ///< W_a of stitches
+  std::optional<StitchLaw> stitch;         ///< W_a of stitches
+  std::optional<MaxwellBranch> relaxation; ///< of yarns, softened likewise
   /// Whether a crossing's cell gives its tension: core/ply/membrane_crimp.hpp.
   bool crimped = false;
   /// Its law: refers to this family.
   AnyYarnLaw law() const {
     if (stitch) return StitchYarn{*stitch};
-    return yarn_law(yarn, viscosity, crimped);
+    return yarn_law(yarn, relaxation, viscosity, crimped);
   }
   /// W_a of a yarn, or of a stitch that is whole; of crimped yarns without their cells.
   LawPoint elastic(double strain) const { return stitch ? stitch->at(strain) : yarn.at(strain); }

@@ -36,7 +36,18 @@ Rows yarn_rows(const std::string& table, const std::string& yarn) {
              .instead = {"stiffness"},
              .ranges = {{.least = 0.0, .most = 10.0}, yarn_force_range},
              .least_items = 2,
-             .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}};
+             .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"},
+            {.key = table + ".relaxation",
+             .kind = K::pairs,
+             .unit = "N/yarn, s",
+             .otherwise = "none: tension does not depend on time",
+             .ranges = {stiffness_range, {.least = 1e-6, .most = 1e9}},
+             .usual = {range_of(usual_stiffness), {.least = 1e-3, .most = 1e6}},
+             .least_items = 1,
+             .most_items = 1,
+             .meaning =
+                 "[[k, theta]] of a Maxwell branch beside both, of yarns that creep: tension "
+                 "by strain at once, and the time of the process in which it relaxes"}};
   append(rows, yarn_bending_rows(table, yarn));
   append(rows, {{.key = table + ".opening_limit",
                  .otherwise = "not known",

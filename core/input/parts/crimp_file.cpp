@@ -115,6 +115,10 @@ void read_crimp(const TableView& section, const Fabric& fabric, Crossing& crossi
   if (ratio[0] == 0.0 && ratio[1] == 0.0)
     return reader.fail(ratio_key, "says that neither yarn has any crimp",
                        "take the table out, or give at least one of them more than 0");
+  for (const std::size_t a : {crossing.first, crossing.second})
+    if (fabric.families[a].relaxation)
+      return reader.fail(ratio_key, "is of yarns that relax, and a cell knows elastic yarns only",
+                         "take the table out, or the relaxation of " + fabric.families[a].name);
   const double floats = heights.size() == 2 ? reader.floats({heights[0], heights[1]}) : 1.0;
   if (!(floats >= 1.0)) return;
   const CrimpedCell cell{{floats * reader.spacing[0], floats * reader.spacing[1]}, reader.crimp};

@@ -171,6 +171,8 @@ YarnFamily read_family(const TableView& section, Diagnostics& diagnostics) {
   YarnFamily family;
   read_members(section, family);
   family.tension = read_tension(section, diagnostics);
+  for (const Vec2& branch : pairs(section, "relaxation"))
+    family.relaxation = MaxwellBranch{branch.x(), branch.y()};
   family.bending = read_moments(section, family.tension, diagnostics);
   family.sources = sources_of(section);
   return family;
