@@ -40,7 +40,7 @@ groups=(build)
 [ "$preset" != asan ] || groups+=(clang-14 libclang-rt-14-dev)
 tools/install_packages.sh "${groups[@]}"
 
-step "Build in build/$preset (two cores: program and module three minutes, with the tests eight)"
+step "Build in build/$preset (two cores: program and module five minutes, with the tests twelve)"
 case $fresh in
   yes) cmake --fresh --preset "$preset" "${options[@]}" ;;
   add) cmake --preset "$preset" "${options[@]}" ;;

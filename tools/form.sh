@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # From a bare Debian 12 to five formed plies: installs what is missing, builds in release mode plyform
 # and its Python module, which the workbench stands on, runs cases/hemisphere_five_ply into
-# results/hemisphere_five_ply and makes a report of it, whose path is printed last. Five minutes on two
+# results/hemisphere_five_ply and makes a report of it, whose path is printed last. Nine minutes on two
 # idle cores where nothing is there.
 #   tools/form.sh [ARGUMENT OF plyform run]...      e.g. tools/form.sh --accuracy draft
 set -euo pipefail
