@@ -196,23 +196,28 @@ std::string memory_text(const Scene& s) {
                      std::ceil(bytes_for(triangles) / 1e6));
 }
 
-/// Measures the wall time of a step, s, over a few steps: their mean without the slowest tenth, in
-/// which another program has the processor or all is done for the first time. Returns a Stop if the
-/// simulation fails.
+/// Measures the wall time of a step, s, over a few steps, fewer of a large scene: their mean
+/// without the slowest tenth, in which another program has the processor or all is done for the
+/// first time. Returns a Stop if the simulation fails.
 std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, const OutlookProgress& progress,
                                 double& seconds) {
   using Clock = std::chrono::steady_clock;
-  constexpr int steps = 60, slow = steps / 10;
+  constexpr int most = 60, least = 5;
+  constexpr double long_enough = 1.0; // s, of them all
   std::vector<double> times;
-  for (int i = 0; i < steps; ++i) {
-    if (progress) progress("times some steps", 0.5 + 0.5 * i / steps);
+  double sum = 0.0;
+  for (int i = 0; i < most && (i < least || sum < long_enough); ++i) {
+    if (progress) progress("times some steps", 0.5 + 0.5 * i / most);
     const auto begin = Clock::now();
     if (auto stop = compute_forces(s, pool)) return stop;
     move_plies(s, pool);
     times.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+    sum += times.back();
   }
   std::sort(times.begin(), times.end());
-  seconds = std::accumulate(times.begin(), times.end() - slow, 0.0) / (steps - slow);
+  const auto kept =
+      static_cast<std::ptrdiff_t>(times.size() - std::max(times.size() / 10, std::size_t{1}));
+  seconds = std::accumulate(times.begin(), times.begin() + kept, 0.0) / static_cast<double>(kept);
   return std::nullopt;
 }
 
