@@ -36,12 +36,11 @@ struct LawAnswer {
   double flowed = 0.0;  ///< N mm per mm, dissipated in the step by rates of the process
 };
 
-/// On what the stable step relies. unrelaxed: N, of slope, by which it may pull beyond its elastic
-/// tension times its strain.
+/// On what the stable step relies.
 struct LawBound {
-  double slope = 0.0;   ///< N, the largest
-  double damping = 0.0; ///< N s, likewise
-  double unrelaxed = 0.0;
+  double slope = 0.0;     ///< N, the largest
+  double damping = 0.0;   ///< N s, likewise
+  double unrelaxed = 0.0; ///< N; times the strain what it pulls beyond its elastic tension at most
 };
 
 /// now, next: `states` numbers each, of the begin and the end of the step; they may be the same.

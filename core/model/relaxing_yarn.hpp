@@ -37,7 +37,8 @@ struct RelaxingYarn {
       step = maxwell_step({branch.modulus, in.time_factor * branch.time}, 1.0 / in.per_process_dt);
     const auto tension = [&](double e) { return step.keep * q0 + step.rise * (e - e0); };
     const bool taut = in.strain >= 0.0 && elastic.at(in.strain).value + tension(in.strain) >= 0.0;
-    const double e = taut ? in.strain : slack_strain(std::max(0.0, in.strain), e0, step, q0);
+    const double e =
+        taut ? in.strain : slack_strain(std::max(0.0, in.strain), e0, tension, step.rise);
     const double q = tension(e), k = branch.modulus;
     next[0] = 1.0 + e, next[1] = q;
     const LawPoint spring = elastic.at(e);
@@ -64,13 +65,15 @@ struct RelaxingYarn {
 
 private:
   /// e of W'(e) + q_1 = 0, between `least` and e0: at the one it would push, at the other it pulls.
-  double slack_strain(double least, double e0, const MaxwellStep& step, double q0) const {
+  /// tension: q_1 over e, whose slope is `rise`.
+  template <class Tension>
+  double slack_strain(double least, double e0, const Tension& tension, double rise) const {
     double low = least, high = std::max(least, e0), e = high;
     for (int i = 0; i < 60 && low < high; ++i) { // Newton within a bracket
       const LawPoint spring = elastic.at(e);
-      const double n = spring.value + step.keep * q0 + step.rise * (e - e0);
+      const double n = spring.value + tension(e);
       (n > 0.0 ? high : low) = e;
-      const double newton = e - n / (spring.slope + step.rise);
+      const double newton = e - n / (spring.slope + rise);
       const double to = newton >= low && newton <= high ? newton : 0.5 * (low + high);
       if (to == e) break;
       e = to;

@@ -60,6 +60,14 @@ OfFamilies yarn_stiffness(const Membrane& m) {
   return k;
 }
 
+/// N, LawBound::unrelaxed of each family.
+OfFamilies unrelaxed(const Membrane& m) {
+  OfFamilies k{};
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    k[a] = bound_of(m.families[a].law()).unrelaxed;
+  return k;
+}
+
 /// Stiffness per area of the deviations within a group, N/mm.
 OfFamilies deviation_stiffness(const Membrane& m, const TriangleState& t) {
   OfFamilies k{};
@@ -94,8 +102,9 @@ double largest_of_crossing(const Membrane& m, const MembraneCrossing& c) {
 }
 
 /// Shear and geometric part of H (see eigenvalue_bound), N/mm, bounded by norms; the second
-/// derivative of the angle is below 2/sin(omega) (1/lambda_a^2 + 1/lambda_b^2).
-double soft_stiffness(const Membrane& m, const TriangleState& t) {
+/// derivative of the angle is below 2/sin(omega) (1/lambda_a^2 + 1/lambda_b^2). unrelaxed: N, of
+/// each family.
+double soft_stiffness(const Membrane& m, const TriangleState& t, const OfFamilies& unrelaxed) {
   std::array<double, 2> pull{}; // of families along the axes
   double oblique = 0.0;         // of the others
   OfFamilies strain{};
@@ -106,7 +115,7 @@ double soft_stiffness(const Membrane& m, const TriangleState& t) {
     const MembraneFamily& f = m.families[a];
     const double lambda = t.yarn[a].lambda;
     // what relaxes pulls as if it had not yet
-    const double pulled = tension[a] + bound_of(f.law()).unrelaxed * std::max(0.0, strain[a]);
+    const double pulled = tension[a] + unrelaxed[a] * std::max(0.0, strain[a]);
     const double n = std::max(0.0, f.density * pulled / lambda);
     if (f.along == Vec2::UnitX())
       pull[0] += n;
@@ -184,6 +193,7 @@ double omega2_of_group(const Membrane& m, std::span<const Vec3> x, std::size_t p
     g.g12 += node.b1 * node.b2 / node.mass;
   }
   double area = 0.0, soft = 0.0;
+  const OfFamilies to_relax = unrelaxed(m);
   TriangleState t;
   for (auto e = static_cast<std::size_t>(m.group_begin[p]);
        e < static_cast<std::size_t>(m.group_begin[p + 1]); ++e) {
@@ -191,7 +201,7 @@ double omega2_of_group(const Membrane& m, std::span<const Vec3> x, std::size_t p
     const Gram of = gram(m.c[e]);
     soft = std::max(soft, corners_per_mass(m, e) *
                               (sheet_stiffness(m, t.axes, of) + matrix_stiffness(m, t.axes, of) +
-                               soft_stiffness(m, t) * largest(of.g11, of.g22, of.g12)));
+                               soft_stiffness(m, t, to_relax) * largest(of.g11, of.g22, of.g12)));
     area += m.area[e];
   }
   return largest_of_families(m, t, g, yarn_stiffness(m)) / area + soft;
@@ -205,7 +215,7 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
   // The fibre part of H, sum_a k_a (v_a v_a^T) x (f_a f_a^T), is exact. The sheet's law has a part
   // of its own (core/model/sheet_law.hpp); where there are yarns it counts as soft.
   EigenvalueBound bound;
-  const OfFamilies yarns = yarn_stiffness(m);
+  const OfFamilies yarns = yarn_stiffness(m), to_relax = unrelaxed(m);
   OfFamilies viscosity{}, penalty{};
   for (std::size_t a = 0; a < m.families.size(); ++a) {
     const MembraneFamily& f = m.families[a];
@@ -234,8 +244,8 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
     const double viscous = largest_of_families(m, t, g, viscosity);
     const double sheet = sheet_stiffness(m, t.axes, g);
     const bool foil = m.families.empty();
-    const double soft = soft_stiffness(m, t) * largest(g.g11, g.g22, g.g12) + (foil ? 0.0 : sheet) +
-                        matrix_stiffness(m, t.axes, g);
+    const double soft = soft_stiffness(m, t, to_relax) * largest(g.g11, g.g22, g.g12) +
+                        (foil ? 0.0 : sheet) + matrix_stiffness(m, t.axes, g);
     bound.yarns = std::max(bound.yarns, per_mass * (fibre + (foil ? sheet : 0.0)));
     bound.soft = std::max(bound.soft, per_mass * soft);
     const double omega2 = per_mass * (fibre + (foil ? sheet : 0.0) + soft);

@@ -18,24 +18,28 @@ SimdNumbers time_factors_of(const KernelLaw& law, const SimdYarnStates* begin) {
   return law.time_factors[(begin - law.states) / (law.families + law.stitches)];
 }
 
+/// A yarn's law in one lane: from its states at `begin` to those at `end`, its answers per mm.
+void evaluate(const MembraneFamily& of, const LawInput& in, const SimdYarnStates& begin,
+              double (*end)[simd_width], std::size_t lane, KernelAnswers& answers) {
+  std::array<double, yarn_states> now{}, next{};
+  for (std::size_t k = 0; k < now.size(); ++k)
+    now[k] = begin.of[k][lane];
+  const LawAnswer a = answer_of(of.law(), in, now.data(), next.data());
+  for (std::size_t k = 0; k < next.size(); ++k)
+    end[k][lane] = next[k];
+  const double d = of.density;
+  answers.value[lane] = d * a.value, answers.stored[lane] = d * a.stored;
+  answers.lost[lane] = d * a.lost, answers.flowed[lane] = d * a.flowed;
+}
+
 void evaluate_yarns(const KernelLaw& law, int family, double per_dt, const double* strain,
                     const SimdYarnStates* begin, double (*end)[simd_width],
                     KernelAnswers& answers) {
-  const MembraneFamily& of = law.membrane->families[at(family)];
-  const AnyYarnLaw yarns = of.law();
-  const double d = of.density;
+  const Membrane& m = *law.membrane;
   const SimdNumbers factors = time_factors_of(law, begin);
-  for (std::size_t i = 0; i < simd_width; ++i) {
-    std::array<double, yarn_states> now{}, next{};
-    for (std::size_t k = 0; k < now.size(); ++k)
-      now[k] = begin[family].of[k][i];
-    const LawAnswer a = answer_of(yarns, law.membrane->input(strain[i], per_dt, {}, factors.of[i]),
-                                  now.data(), next.data());
-    for (std::size_t k = 0; k < next.size(); ++k)
-      end[k][i] = next[k];
-    answers.value[i] = d * a.value, answers.stored[i] = d * a.stored;
-    answers.lost[i] = d * a.lost, answers.flowed[i] = d * a.flowed;
-  }
+  for (std::size_t i = 0; i < simd_width; ++i)
+    evaluate(m.families[at(family)], m.input(strain[i], per_dt, {}, factors.of[i]), begin[family],
+             end, i, answers);
 }
 
 /// Strains and answers of all families at four points; yarns as evaluate_yarns.
@@ -48,19 +52,9 @@ void evaluate_cells(const KernelLaw& law, double per_dt, const double (*strain)[
     for (std::size_t a = 0; a < families; ++a)
       strains[a] = strain[a][i];
     const std::array<LawPoint, most_families> cells = cell_points(m, strains);
-    for (std::size_t a = 0; a < families; ++a) {
-      const MembraneFamily& f = m.families[a];
-      std::array<double, yarn_states> now{}, next{};
-      for (std::size_t k = 0; k < now.size(); ++k)
-        now[k] = begin[a].of[k][i];
-      const LawAnswer answer =
-          answer_of(f.law(), m.input(strains[a], per_dt, cells[a]), now.data(), next.data());
-      for (std::size_t k = 0; k < next.size(); ++k)
-        end[a].of[k][i] = next[k];
-      answers[a].value[i] = f.density * answer.value;
-      answers[a].stored[i] = f.density * answer.stored;
-      answers[a].lost[i] = f.density * answer.lost;
-    }
+    for (std::size_t a = 0; a < families; ++a)
+      evaluate(m.families[a], m.input(strains[a], per_dt, cells[a]), begin[a], end[a].of, i,
+               answers[a]);
   }
 }
 
