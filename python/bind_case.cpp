@@ -216,15 +216,18 @@ void bind_case(py::module_& m) {
           },
           "PredictedError. Raises CaseError if there are mistakes.");
   bind_outlook(m);
-  const auto prepare = [](const std::filesystem::path& file,
-                          const std::vector<Override>& overrides) {
+  const auto prepare = [](const std::filesystem::path& file, const std::vector<Override>& overrides,
+                          bool quick) {
     PreparedCase prepared = prepare_case(file, overrides);
-    if (prepared.value) mesh_from_scene(prepared, available_cores());
+    if (prepared.value)
+      mesh_from_scene(prepared, available_cores(), {.kept = true, .scouts = !quick});
     return prepared;
   };
-  m.def("prepare", prepare, py::arg("file"), py::arg("overrides"),
+  m.def("prepare", prepare, py::arg("file"), py::arg("overrides"), py::arg("quick"),
         py::call_guard<py::gil_scoped_release>(),
-        "Reads, meshes and checks a case file; overrides as (key, TOML text).");
+        "Reads, meshes and checks a case file; overrides as (key, TOML text). quick: without the "
+        "fast "
+        "run that finds a mesh from the scene, unless its sizes are kept from before.");
   m.def("value_of", &value_of, py::arg("file"), py::arg("overrides"), py::arg("key"),
         "The value of a key after overrides, None without one. Raises KeyError.");
   m.def("keys", &case_keys, "Every key of case and fabric files, as Key.");

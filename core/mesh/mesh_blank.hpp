@@ -48,6 +48,10 @@ void check_polygon(const std::vector<Vec2>& corners, const std::string& name);
 /// Area (mm^2) that the outline encloses, arcs as they are.
 double area_of(const Outline& outline);
 
+/// How many corners the mesh leaves out with elements of that size, mm: those within 2 % of it of
+/// the corner before.
+std::size_t merged_corners(const Outline& outline, double element_size);
+
 /// The corners of the boundary and points between them on arcs, at most largest_turn (rad) apart.
 std::vector<Vec2> points_of(const Outline& outline, double largest_turn);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace plyform {
 namespace {
@@ -27,6 +28,36 @@ std::vector<const OutlineArc*> arcs_of(const Outline& outline, int hole) {
   for (const OutlineArc& arc : outline.arcs)
     if (arc.hole == hole && arc.side < arcs.size() && !arcs[arc.side]) arcs[arc.side] = &arc;
   return arcs;
+}
+
+/// Corners of a loop that are closer than this share of an element to the one before are no more
+/// than a part of it: elements as small would set the step of the whole run.
+constexpr double same_corner = 0.02;
+
+/// The corners that count at this element size, mm, in order. All of them, if fewer than three did.
+std::vector<std::size_t> counting_corners(const std::vector<Vec2>& corners, double spacing) {
+  std::vector<std::size_t> counting;
+  const double least = std::isfinite(spacing) ? same_corner * spacing : 0.0;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    if (counting.empty() || !((corners[k] - corners[counting.back()]).norm() < least))
+      counting.push_back(k);
+  while (counting.size() > 1 && (corners[counting.back()] - corners[0]).norm() < least)
+    counting.pop_back();
+  if (counting.size() >= 3) return counting;
+  counting.resize(corners.size());
+  std::iota(counting.begin(), counting.end(), std::size_t{0});
+  return counting;
+}
+
+/// The longest side of those from one corner to another, all but one of which are not counted.
+std::size_t longest_side(const std::vector<Vec2>& corners, std::size_t from, std::size_t to) {
+  std::size_t longest = from;
+  double most = -1.0;
+  for (std::size_t k = from; most < 0.0 || k != to; k = (k + 1) % corners.size()) {
+    const double side = (corners[(k + 1) % corners.size()] - corners[k]).norm();
+    if (side > most) most = side, longest = k;
+  }
+  return longest;
 }
 
 /// Area (mm^2), positive for loops that go round anticlockwise.
@@ -100,6 +131,15 @@ std::vector<Vec2> sample_loop(const Outline& outline, int hole, double spacing,
   return points;
 }
 
+std::size_t merged_corners(const Outline& outline, double spacing) {
+  std::size_t merged = 0;
+  for (int k = -1; k < static_cast<int>(outline.holes.size()); ++k) {
+    const std::vector<Vec2>& corners = corners_of(outline, k);
+    merged += corners.size() - counting_corners(corners, spacing).size();
+  }
+  return merged;
+}
+
 std::vector<SampledSide> sample_sides(const Outline& outline, int hole, double spacing,
                                       double largest_turn) {
   const std::vector<Vec2>& corners = corners_of(outline, hole);
@@ -108,9 +148,11 @@ std::vector<SampledSide> sample_sides(const Outline& outline, int hole, double s
   };
   const std::vector<const OutlineArc*> arcs = arcs_of(outline, hole);
   std::vector<SampledSide> sides;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec2 p = corners[k], q = corners[(k + 1) % corners.size()], along = q - p;
-    const OutlineArc* arc = arcs[k];
+  const std::vector<std::size_t> counting = counting_corners(corners, spacing);
+  for (std::size_t k = 0; k < counting.size(); ++k) {
+    const std::size_t next = counting[(k + 1) % counting.size()];
+    const Vec2 p = corners[counting[k]], q = corners[next], along = q - p;
+    const OutlineArc* arc = arcs[longest_side(corners, counting[k], next)];
     std::vector<Vec2>& points = sides.emplace_back(SampledSide{{}, q, arc}).points;
     if (!arc) {
       const int n = pieces(along.norm());

@@ -288,7 +288,12 @@ private:
                                "cannot go on; run it anew, without --resume");
   }
 
-  void write() {
+  void write(bool last) {
+    if (hooks_.glance && !last) {
+      hooks_.glance(s_);
+      state_.outputs_written = outputs_due(s_);
+      return;
+    }
     const bool first = state_.outputs_written < 0;
     const double stroke = first ? 0.0 : result_.last.stroke_mm,
                  time = first ? 0.0 : result_.last.time;
@@ -349,7 +354,7 @@ private:
         keep(s_, state_.energy, state_.good);
         tell_progress();
       }
-      if (output) write();
+      if (output) write(last);
       if (hooks_.watch.asked && hooks_.watch.asked())
         hooks_.watch.drawn(make_frame(s_, watched_surfaces_, state_.energy, pool_));
       if (interrupted && !ended) {
@@ -367,7 +372,7 @@ private:
     result_.summary.message = stop.message;
     if (!state_.good.plies.empty()) restore(s_, state_.good);
     state_.energy = state_.good.energy;
-    if (s_.step != result_.last.step || state_.outputs_written < 0) write();
+    if (s_.step != result_.last.step || state_.outputs_written < 0) write(true);
   }
 
   Scene& s_;

@@ -45,7 +45,9 @@ struct RunHooks {
     std::function<bool()> asked;
     std::function<void(const Frame&)> drawn;
   };
-  std::function<void(const Frame&)> frame;       ///< each output state, the first and last included
+  std::function<void(const Frame&)> frame; ///< each output state, the first and last included
+  /// The scene at each output but the last, if that is all that is wanted: no Frame is made there.
+  std::function<void(const Scene&)> glance;
   std::function<void(const Progress&)> progress; ///< several times a second at most
   const std::atomic<bool>* interrupt = nullptr;  ///< set it to end the run early
   Checkpoint checkpoint;

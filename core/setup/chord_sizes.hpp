@@ -22,6 +22,7 @@
 // Hollows count as ridges do, for a ply that is pressed into one: |c|.
 #pragma once
 
+#include "core/input/checks/initial_scene.hpp"
 #include "core/model/case.hpp"
 #include "core/results/frame.hpp"
 
@@ -47,8 +48,32 @@ struct ChordLimits {
   double smallest = 3.0;            ///< no element is smaller: no ply bends round less
 };
 
-/// Lowers `sizes`, one per ply, to what (1) asks for at this state.
-void lower_to_chords(const Case& data, const Frame& state, const ChordLimits& limits,
-                     std::vector<AskedSizes>& sizes);
+/// c of (1) where a place of a ply was looked at, as seen from a tool.
+struct SeenChord {
+  Vec3 p = Vec3::Zero(), n = Vec3::Zero(); ///< mm from the tool's origin; unit vector
+  double above = 0.0, size = -1.0;         ///< mm: o and h; below 0: not looked at yet
+  double depth = 0.0;                      ///< mm, c, no more than was allowed
+};
+
+/// What is known of one ply from its states before, as seen from one tool.
+struct SeenByTool {
+  std::vector<LastDistance> middles, places; ///< of triangles; of all asked_places
+  std::vector<SeenChord> chords;             ///< of all asked_places
+};
+
+/// Sizes from the states of one run, in their order.
+class ChordSizes {
+public:
+  explicit ChordSizes(const Case& data, const ChordLimits& limits = {})
+      : data_(data), limits_(limits) {}
+
+  /// Lowers `sizes`, one per ply, to what (1) asks for at this state.
+  void lower(const Frame& state, std::vector<AskedSizes>& sizes);
+
+private:
+  const Case& data_;
+  ChordLimits limits_;
+  std::vector<SeenByTool> seen_; ///< by ply and tool
+};
 
 } // namespace plyform

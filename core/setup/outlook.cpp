@@ -33,10 +33,19 @@
 namespace plyform {
 namespace {
 
-/// What the outlines were read from.
-void describe_drawings(const Case& data, Lines& lines) {
-  for (const BlankSpec& blank : data.blanks)
+/// What the outlines were read from, and what of them is too small for the mesh.
+void describe_outlines(const Case& data, Lines& lines) {
+  for (const BlankSpec& blank : data.blanks) {
     if (!blank.drawing.empty()) say(lines, "outline from {}", blank.drawing);
+    if (!takes_elements(blank)) continue;
+    const std::size_t merged = merged_corners(blank.outline, blank.element_size);
+    if (merged > 0)
+      say(lines,
+          "outline: {} {} within {:.2g} mm of the corner before, a fiftieth of an "
+          "element, {} left out",
+          merged, merged == 1 ? "corner" : "corners", 0.02 * blank.element_size,
+          merged == 1 ? "is" : "are");
+  }
 }
 
 /// What fabrics leave free or lock, and values that were estimated or limited.
@@ -55,9 +64,9 @@ void describe_cut(const Scene& s, std::size_t tool, Lines& lines) {
   constexpr double round = 0.5; // of the radius
   std::optional<CutAhead> worst;
   const PlyBody* cut_ply = nullptr;
-  std::set<std::pair<int, int>> seen;
+  std::set<std::pair<double, int>> seen;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    if (!seen.emplace(s.data.plies[p].fabric, s.data.plies[p].blank).second) continue;
+    if (!seen.emplace(s.plies[p].thickness, s.data.plies[p].blank).second) continue;
     const std::optional<CutAhead> cut = cut_ahead(s, tool, p);
     if (!cut || cut->depth <= 0.5 * s.plies[p].thickness) continue;
     if (!worst || cut->depth > worst->depth) worst = cut, cut_ply = &s.plies[p];
@@ -154,7 +163,8 @@ std::string motion_text(const Tool& t) {
   return text;
 }
 
-void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, Lines& lines) {
+void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, bool mesh_to_come,
+                    Lines& lines) {
   std::vector<FlatPly> plies;
   double reach = 0.0;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
@@ -168,7 +178,7 @@ void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, Lines&
     say(lines, "tool {}: {}{}", t.name, motion_text(s.data.tools[i]),
         std::isfinite(radius) ? fmt::format(", smallest radius {:.4g} mm", radius) : std::string());
     describe_way(s, i, plies, reach + s.data.tools[i].position.norm(), lines);
-    describe_cut(s, i, lines);
+    if (!mesh_to_come) describe_cut(s, i, lines);
   }
 }
 
@@ -203,7 +213,7 @@ std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, const OutlookProgres
                                 double& seconds) {
   using Clock = std::chrono::steady_clock;
   constexpr int most = 60, least = 5;
-  constexpr double long_enough = 1.0; // s, of them all
+  constexpr double long_enough = 0.2; // s, of them all
   std::vector<double> times;
   double sum = 0.0;
   for (int i = 0; i < most && (i < least || sum < long_enough); ++i) {
@@ -223,7 +233,8 @@ std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, const OutlookProgres
 
 } // namespace
 
-Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgress& progress) {
+Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgress& progress,
+                   bool mesh_to_come) {
   const auto tell = [&](const char* words, double fraction) {
     if (progress) progress(words, fraction);
   };
@@ -238,13 +249,13 @@ Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgr
   Lines& lines = outlook.lines;
   lines.push_back(data.title);
   describe_fabrics(s.data, lines);
-  describe_drawings(s.data, lines);
+  describe_outlines(data, lines);
   describe_plies(s, lines);
   describe_locking(s, lines);
   describe_limp(s, lines);
   describe_wrinkles(s, lines);
   tell("looks at tools", 0.3);
-  describe_tools(s, prepared.meshes, lines);
+  describe_tools(s, prepared.meshes, mesh_to_come, lines);
   describe_compaction(s, pool, lines);
   tell("looks at boundaries and steps", 0.45);
   for (std::string& line : boundaries_ahead(s))

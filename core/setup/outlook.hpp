@@ -23,7 +23,9 @@ struct Outlook {
 /// What is looked at now, and the fraction of all that is done; some ten times in the whole.
 using OutlookProgress = std::function<void(const std::string& words, double fraction)>;
 
-/// Makes the scene of a case without mistakes and times some steps of it.
-Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgress& progress = {});
+/// Makes the scene of a case without mistakes and times some steps of it. Of a mesh that is still
+/// to be found from the scene nothing is said of where it is too coarse for a tool: it will not be.
+Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgress& progress = {},
+                   bool mesh_to_come = false);
 
 } // namespace plyform

@@ -55,7 +55,7 @@ std::optional<CaseError> fault_of_meshes(const Case& data, const std::vector<Bla
           "{:.2g} steps of {:.0f} triangles, {} of computing and {:.2g} GB of memory",
           size.smallest, size.where.x(), size.where.y(), size.steps, size.triangles,
           duration_text(size.seconds), size.bytes / 1e9),
-      "take what is so small out of the outline or its zones (corner_radius), give larger "
+      "take what is so small out of the outline (a hole?) or its zones, give larger "
       "elements, "
       "a shorter solver.duration or more solver.fibre_softening, or go on with --yes-large"};
 }

@@ -5,6 +5,7 @@
 #include "core/accuracy/error_model.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/results/checkpoint_file.hpp"
+#include "core/setup/kept_sizes.hpp"
 #include "core/setup/size_grid.hpp"
 
 #include <algorithm>
@@ -40,48 +41,53 @@ SizeGrid sizes_of_before(const std::vector<PlySizes>& before, const std::string&
   return found->sizes;
 }
 
-std::string not_known(const Scouted& scouted) {
-  return fmt::format("the mesh from the scene, and with it steps and time, are not known: the run "
-                     "with coarse elements that looks where small ones are needed has not ended "
-                     "after {:.2g} million element-steps. plyform run goes on to its end; larger "
-                     "elements, a shorter stroke or zones by hand in the place of mesh_from take "
-                     "less",
-                     1e-6 * scouted.work);
+/// The sizes that were kept from before, or a scout's; nothing if neither may be.
+std::optional<Scouted> look_for_sizes(const PreparedCase& prepared, int threads,
+                                      const MeshRequest& request) {
+  const Case& data = *prepared.value;
+  if (request.kept)
+    if (auto kept = kept_sizes(prepared.identity, data.plies.size())) return kept;
+  if (!request.scouts) return std::nullopt;
+  Scouted found = scout(data, error_of_mesh(data), threads, request.scout);
+  if (!found.fault.empty())
+    throw ScoutStopped("the run with coarse elements that looks where small ones are "
+                       "needed (mesh_from = \"scene\") did not go to its end: " +
+                       found.fault + "; give zones by hand instead");
+  if (request.kept) keep_sizes(prepared.identity, found);
+  return found;
 }
 
 /// Finds the sizes of every ply that asks for some.
-SceneMesh find_sizes(const Case& data, int threads, const ScoutHooks& hooks,
-                     const std::filesystem::path& known) {
+SceneMesh find_sizes(const PreparedCase& prepared, int threads, const MeshRequest& request) {
+  const Case& data = *prepared.value;
   SceneMesh found;
-  Scouted scouted;
+  std::optional<Scouted> scouted;
   std::map<std::filesystem::path, std::vector<PlySizes>> before; // each file is read once
   for (std::size_t p = 0; p < data.plies.size(); ++p) {
     const std::string& from = blank_of(data, p).mesh_from;
     if (from.empty()) continue;
     const std::filesystem::path path =
-        from == mesh_from_scene_word ? known : std::filesystem::path(from);
+        from == mesh_from_scene_word ? request.known : std::filesystem::path(from);
     if (!path.empty()) {
       if (!before.contains(path)) before[path] = read_sizes(path);
       found.sizes.push_back(
           {data.plies[p].name, sizes_of_before(before[path], data.plies[p].name, path)});
       continue;
     }
-    if (scouted.sizes.empty()) {
-      scouted = scout(data, error_of_mesh(data), threads, hooks);
-      found.scout_work = scouted.work;
-      found.scout_seconds = scouted.seconds;
-      if (scouted.gave_up) {
-        found.sizes.clear();
-        found.not_known = not_known(scouted);
-        return found;
-      }
-      if (!scouted.fault.empty())
-        throw ScoutStopped("the run with coarse elements that looks where small ones are "
-                           "needed (mesh_from = \"scene\") did not go to its end: " +
-                           scouted.fault + "; give zones by hand instead");
-      found.scouted = true;
+    if (!scouted) scouted = look_for_sizes(prepared, threads, request);
+    if (!scouted) {
+      found.sizes.clear();
+      found.unknown = true;
+      return found;
     }
-    found.sizes.push_back({data.plies[p].name, scouted.sizes[p]});
+    found.sizes.push_back({data.plies[p].name, scouted->sizes[p]});
+  }
+  if (scouted) {
+    found.scouted = scouted->work > 0.0;
+    found.kept = !found.scouted;
+    found.scout_work = scouted->work;
+    found.scout_seconds = scouted->seconds;
+    if (!scouted->ended.empty()) found.warnings.push_back(scouted->ended);
   }
   return found;
 }
@@ -127,8 +133,7 @@ void measure(const PreparedCase& prepared, SceneMesh& found) {
 
 } // namespace
 
-SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const ScoutHooks& hooks,
-                          const std::filesystem::path& known) {
+SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const MeshRequest& request) {
   const Case& data = *prepared.value;
   bool asked = false;
   for (std::size_t p = 0; p < data.plies.size(); ++p)
@@ -136,15 +141,15 @@ SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const ScoutHooks&
   if (!asked) return {};
   SceneMesh found;
   try {
-    found = find_sizes(data, threads, hooks, known);
+    found = find_sizes(prepared, threads, request);
   } catch (const ScoutStopped&) {
     throw;
   } catch (const std::runtime_error& error) {
-    if (!known.empty()) throw; // not what the case says
+    if (!request.known.empty()) throw; // not what the case says
     report(prepared, error.what());
     return {};
   }
-  if (!found.not_known.empty()) return found;
+  if (found.unknown) return found;
   give_sizes(prepared, found.sizes);
   check_meshes(prepared);
   if (!prepared.value) return found;
@@ -153,7 +158,7 @@ SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const ScoutHooks&
   prepared.notes.push_back(
       fmt::format("mesh from the scene: {:.0f} triangles, elements of {:.3g} to {:.3g} mm",
                   found.triangles, found.smallest, found.largest));
-  if (std::string missed = missed_accuracy(data); !missed.empty()) found.warning = missed;
+  if (std::string missed = missed_accuracy(data); !missed.empty()) found.warnings.push_back(missed);
   return found;
 }
 

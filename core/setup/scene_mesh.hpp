@@ -13,12 +13,21 @@ namespace plyform {
 struct SceneMesh {
   std::vector<PlySizes> sizes; ///< of the plies whose meshes they are; empty: no ply asks for any
   bool scouted = false;        ///< not read from a file
+  bool kept = false;           ///< a scout's of before
   double scout_work = 0.0;     ///< triangles times steps
   double scout_seconds = 0.0;  ///< wall time
   double triangles = 0.0;      ///< of all plies
   double smallest = 0.0, largest = 0.0; ///< mm, sides of the squares of two triangles
-  std::string warning;                  ///< of an accuracy that is out of reach; else empty
-  std::string not_known; ///< why no sizes were found within the most work; else empty
+  std::vector<std::string> warnings;    ///< of an accuracy out of reach, and of a scout's budget
+  bool unknown = false;                 ///< sizes are asked for that only a scout would find
+};
+
+/// Where sizes may come from.
+struct MeshRequest {
+  std::filesystem::path known = {}; ///< the folder of a run that goes on, whose sizes hold
+  bool kept = false;                ///< take those kept from before, and keep those found
+  bool scouts = true;               ///< else plies for which that is needed are left as they are
+  ScoutHooks scout = {};
 };
 
 /// A scout that did not go to its end, where and when.
@@ -27,10 +36,9 @@ struct ScoutStopped : std::runtime_error {
 };
 
 /// Gives the plies of `prepared` that ask for it sizes and meshes; its identity tells the sizes, a
-/// note what was done. known: the folder of a run that goes on, whose sizes hold, or nothing. What
-/// is too large for a case of sensible size is added to its errors, and it has no value then.
-/// Throws ScoutStopped, and std::runtime_error if a file of sizes cannot be used.
-SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const ScoutHooks& hooks = {},
-                          const std::filesystem::path& known = {});
+/// note what was done. What is too large for a case of sensible size is added to its errors, and it
+/// has no value then. Throws ScoutStopped, and std::runtime_error if a file of sizes cannot be
+/// used.
+SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const MeshRequest& request = {});
 
 } // namespace plyform

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/scout.hpp"
 
+#include "base/format.hpp"
 #include "core/accuracy/cost_parameters.hpp"
 #include "core/mesh/mesh_blank.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/setup/chord_sizes.hpp"
 #include "core/setup/shear_sizes.hpp"
+#include "core/setup/size_ahead.hpp"
 #include "core/setup/size_grid.hpp"
+#include "core/solver/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,16 +61,62 @@ Case scout_case(const Case& data) {
 
 namespace {
 
+/// Triangles times steps that the scout may take: a share of what the run will, by the sizes that
+/// it has found so far, and what is no long wait in any case.
+class Budget {
+public:
+  Budget(const Case& data, double most) : data_(data), most_(most) {}
+
+  /// Counts the elements that these sizes ask for, at this state of the scout.
+  void foresee(const Frame& state, const std::vector<AskedSizes>& sizes) {
+    double triangles = 0.0, steps = 0.0;
+    for (std::size_t p = 0; p < sizes.size(); ++p) {
+      double smallest = largest_of(data_, p);
+      for (std::size_t t = 0; t < sizes[p].size(); ++t) {
+        const double size = *std::min_element(sizes[p][t].begin(), sizes[p][t].end()),
+                     side = square_side(state.plies[p], t);
+        triangles += side * side / (size * size);
+        smallest = std::min(smallest, size);
+      }
+      steps = std::max(steps, steps_ahead(data_, data_.plies[p], smallest));
+    }
+    allowed_ = std::max(allowed_, share * triangles * steps);
+  }
+
+  bool spent(double work) const { return work >= std::min(allowed_, most_); }
+
+private:
+  static constexpr double share = 0.1; // of the run
+  static constexpr double least = 3e7; // six seconds of one core of 2026
+
+  const Case& data_;
+  double most_, allowed_ = least;
+};
+
+/// Where plies and tools are, and no more.
+Frame places_of(const Scene& scene) {
+  Frame state;
+  for (const PlyBody& ply : scene.plies) {
+    PlyFrame& places = state.plies.emplace_back();
+    places.x0 = ply.x0;
+    places.x = ply.x;
+    places.triangles = ply.membrane.triangles;
+  }
+  for (const ToolState& tool : scene.tools)
+    state.tools.emplace_back().displacement = tool.body.displacement;
+  return state;
+}
+
 /// What one run of the scout has seen.
 struct Look {
   RunResult result;
   std::vector<AskedSizes> sizes; ///< that chords ask for
-  bool gave_up = false;          ///< at the most work
+  bool spent = false;            ///< the budget, which ended it as an interrupt does
 };
 
-/// most_work: triangles times steps after which it is ended as by an interrupt.
-Look run_once(const Case& fast, const Case& data, int threads, const ScoutHooks& hooks,
-              double most_work) {
+/// number: of the run; before: triangles times steps that runs before it have taken.
+Look run_once(int number, const Case& fast, const Case& data, int threads, const ScoutHooks& hooks,
+              double before, Budget& budget) {
   Look look;
   look.sizes.resize(fast.plies.size());
   std::vector<BlankMesh> meshes;
@@ -76,14 +125,16 @@ Look run_once(const Case& fast, const Case& data, int threads, const ScoutHooks&
     meshes.push_back(mesh_ply(fast, ply));
     triangles += static_cast<double>(meshes.back().triangles.size());
   }
+  if (hooks.begins) hooks.begins(number, size_of_meshes(fast, meshes, threads));
+  ChordSizes chords(fast);
   std::atomic<bool> ends{false};
   RunHooks run;
   run.progress = [&](const Progress& p) {
     if (hooks.progress) hooks.progress(p);
-    look.gave_up = static_cast<double>(p.step) * triangles >= most_work;
-    ends = look.gave_up || (hooks.interrupt && *hooks.interrupt);
+    look.spent = budget.spent(before + static_cast<double>(p.step) * triangles);
+    ends = look.spent || (hooks.interrupt && *hooks.interrupt);
   };
-  run.interrupt = std::isfinite(most_work) ? &ends : hooks.interrupt;
+  run.interrupt = &ends;
   run.watch = hooks.watch;
   run.frame = [&](const Frame& state) {
     for (std::size_t p = 0; p < look.sizes.size(); ++p)
@@ -92,9 +143,12 @@ Look run_once(const Case& fast, const Case& data, int threads, const ScoutHooks&
         for (auto& places : look.sizes[p])
           places.fill(largest_of(data, p));
       }
-    lower_to_chords(fast, state, {}, look.sizes);
+    chords.lower(state, look.sizes);
+    budget.foresee(state, look.sizes);
   };
+  run.glance = [&](const Scene& scene) { run.frame(places_of(scene)); };
   look.result = run_case(fast, threads, run, meshes);
+  look.spent = look.spent && look.result.summary.status == "interrupted";
   return look;
 }
 
@@ -130,21 +184,37 @@ Case finer(const Case& fast, const std::vector<SizeGrid>& wanted) {
   return next;
 }
 
+/// What the budget has left unseen.
+std::string ended_early(const Look& look, const Case& fast, int runs, double work) {
+  std::string text = fmt::format(
+      "the run with coarse elements that looks where small ones are needed was ended at its "
+      "budget, after {:.2g} million element-steps, ",
+      1e-6 * work);
+  if (runs > 1)
+    return text + fmt::format("in its run {}: the mesh is that of the run before, whose elements "
+                              "were too coarse to say everywhere where small ones are needed",
+                              runs);
+  return text + fmt::format("at {:.0f} % of the time: the mesh is fine for what it had seen until "
+                            "then; elements that are too large for what comes later are told of "
+                            "when the run ends",
+                            100.0 * look.result.last.time / fast.solver.duration);
+}
+
 } // namespace
 
 Scouted scout(const Case& data, double shear_error, int threads, const ScoutHooks& hooks) {
   const Case fast = scout_case(data);
+  Budget budget(data, hooks.most_work);
   Scouted scouted;
   for (int runs = 1; runs <= most_runs; ++runs) {
-    if (hooks.begins) hooks.begins(runs);
-    Look look = run_once(runs == 1 ? fast : finer(fast, scouted.sizes), data, threads, hooks,
-                         hooks.most_work - scouted.work);
+    Look look = run_once(runs, runs == 1 ? fast : finer(fast, scouted.sizes), data, threads, hooks,
+                         scouted.work, budget);
     add_cost(look.result, scouted);
-    scouted.gave_up = look.gave_up;
-    if (look.gave_up) return scouted;
-    if (look.result.summary.status != "done" && look.result.summary.status != "doubtful") {
+    if (look.spent) scouted.ended = ended_early(look, fast, runs, scouted.work);
+    if (look.spent && runs > 1) break; // what the run before has seen of all of it
+    if (!look.spent && !ended(look.result.summary.status)) {
       scouted.fault = look.result.summary.message;
-      return scouted;
+      break;
     }
     const double coarse = coarseness(look);
     lower_to_shear(look.result.last, shear_error, finest_for_shear, look.sizes);
@@ -152,7 +222,7 @@ Scouted scout(const Case& data, double shear_error, int threads, const ScoutHook
     for (std::size_t p = 0; p < look.sizes.size(); ++p)
       scouted.sizes.push_back(size_grid(look.result.last.plies[p], data.plies[p], look.sizes[p],
                                         largest_of(data, p), runs == 1 ? held_first : held_later));
-    if (coarse <= coarse_enough) break;
+    if (look.spent || coarse <= coarse_enough) break;
   }
   return scouted;
 }

@@ -18,10 +18,10 @@ namespace {
 constexpr double seconds_a_triangle = 2e-7, seconds_a_step = 1e-5;
 constexpr double day = 86400.0; // s
 
-/// Steps, by the time that a wave of tension takes through an element of that size, mm. The ratio
-/// is that of cases/hemisphere_0, and holds to a factor of two or so.
-double steps_of(const Case& data, const Ply& ply, double size) {
-  constexpr double elements_a_step = 0.7;
+} // namespace
+
+double steps_ahead(const Case& data, const Ply& ply, double size) {
+  constexpr double elements_a_step = 0.7; // of cases/hemisphere_0, holds to a factor of two or so
   const Fabric& fabric = data.fabrics[ply.fabric];
   if (!fabric.has_yarns() || !(size > 0.0)) return 0.0;
   double stiffness = 0.0; // N/mm
@@ -32,8 +32,6 @@ double steps_of(const Case& data, const Ply& ply, double size) {
   return data.solver.duration * speed / (elements_a_step * size);
 }
 
-} // namespace
-
 SizeAhead size_ahead(const Case& data, int threads) {
   SizeAhead size;
   double most = 0.0;
@@ -42,7 +40,7 @@ SizeAhead size_ahead(const Case& data, int threads) {
     size.triangles += triangles;
     if (triangles > most) most = triangles, size.largest = ply.blank;
     size.steps =
-        std::max(size.steps, steps_of(data, ply, smallest_wanted(data.blanks[at(ply.blank)])));
+        std::max(size.steps, steps_ahead(data, ply, smallest_wanted(data.blanks[at(ply.blank)])));
   }
   size.bytes = bytes_for(size.triangles);
   size.seconds = seconds_a_triangle * size.triangles * size.steps / std::max(threads, 1);
@@ -82,7 +80,7 @@ SizeAhead size_of_meshes(const Case& data, const std::vector<BlankMesh>& meshes,
       if (size.smallest > 0.0 && height >= size.smallest) continue;
       size.smallest = height, size.where = mesh.x[at(t[0])], size.ply = p;
     }
-    size.steps = std::max(size.steps, steps_of(data, data.plies[p], square * size.smallest));
+    size.steps = std::max(size.steps, steps_ahead(data, data.plies[p], square * size.smallest));
   }
   size.bytes = bytes_for(size.triangles);
   const auto seconds = [&] {

@@ -28,6 +28,10 @@ SizeAhead size_ahead(const Case& data, int threads);
 /// std::runtime_error as make_scene.
 SizeAhead size_of_meshes(const Case& data, const std::vector<BlankMesh>& meshes, int threads);
 
+/// Steps of a run whose smallest elements in this ply are squares of that side, mm: by the time
+/// that a wave of tension takes through one. 0 where the ply has no yarns.
+double steps_ahead(const Case& data, const Ply& ply, double size);
+
 /// Bytes of memory, about, that a run with so many triangles of all plies takes at its peak.
 double bytes_for(double triangles);
 

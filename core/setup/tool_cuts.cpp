@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace plyform {
 namespace {
@@ -23,10 +22,6 @@ struct Ridge {
 std::vector<Ridge> ridges_of(const TriMesh& surface) {
   constexpr double flat = 1e-3;       // rad
   constexpr std::size_t most = 20000; // asked
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> faces;
-  for (std::size_t f = 0; f < surface.triangles.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k)
-      faces[std::minmax(surface.triangles[f][k], surface.triangles[f][(k + 1) % 3])].push_back(f);
   const auto middle = [&](std::size_t f) {
     const Triangle& t = surface.triangles[f];
     return Vec3((surface.x[t[0]] + surface.x[t[1]] + surface.x[t[2]]) / 3.0);
@@ -37,11 +32,16 @@ std::vector<Ridge> ridges_of(const TriMesh& surface) {
     return Vec3((surface.x[t[1]] - a).cross(surface.x[t[2]] - a).stableNormalized());
   };
   std::vector<Ridge> ridges;
-  for (const auto& [edge, sides] : faces) {
-    if (sides.size() != 2) continue;
-    const Vec3 n0 = normal(sides[0]), n1 = normal(sides[1]);
+  const std::vector<FaceSide> sides = sides_by_edge(surface.triangles);
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].same_edge(sides[begin]))
+      ++end;
+    if (end - begin != 2) continue;
+    const FaceSide& edge = sides[begin];
+    const Vec3 n0 = normal(edge.face), n1 = normal(sides[begin + 1].face);
     const double angle = std::acos(std::clamp(n0.dot(n1), -1.0, 1.0));
-    if (angle < flat || n0.dot(middle(sides[1]) - surface.x[edge.first]) >= 0.0) continue;
+    if (angle < flat || n0.dot(middle(sides[begin + 1].face) - surface.x[edge.first]) >= 0.0)
+      continue;
     Ridge ridge;
     ridge.q = 0.5 * (surface.x[edge.first] + surface.x[edge.second]);
     ridge.n = (n0 + n1).stableNormalized();

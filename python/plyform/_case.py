@@ -158,16 +158,19 @@ class Case:
         """What was set, by key, as TOML."""
         return dict(self._settings)
 
-    def check(self) -> Check:
-        """Checks the case and the scene that it makes. Raises nothing for what is wrong in it."""
-        found = self._prepare()
+    def check(self, quick: bool = False) -> Check:
+        """Checks the case and the scene that it makes. Raises nothing for what is wrong in it. quick:
+        with the largest elements where mesh_from = "scene" takes a fast run to find smaller ones,
+        unless they are known from before.
+        """
+        found = self._prepare(quick)
         return Check(found.mistakes, found.warnings, found.notes, found.assumed)
 
-    def outlook(self, threads: int | None = None) -> Outlook:
+    def outlook(self, threads: int | None = None, quick: bool = False) -> Outlook:
         """What will be modelled, the stable step, and about how long a run takes, from some steps
-        of it; threads: as many as there are cores unless given. Raises CaseError.
+        of it; threads: as many as there are cores unless given; quick: as of check. Raises CaseError.
         """
-        return _plyform.look_ahead(self._prepare(), threads or 0)
+        return _plyform.look_ahead(self._prepare(quick), threads or 0)
 
     def scene(self, threads: int | None = None) -> Scene:
         """The case as it will stand before the first step, and how its tools will move: for a
@@ -181,8 +184,8 @@ class Case:
         accuracy = [] if self._accuracy is None else [("accuracy.shear_deg", _toml(self._accuracy))]
         return [*self._settings.items(), *accuracy]
 
-    def _prepare(self) -> _plyform.Prepared:
-        return _plyform.prepare(self.file, self._overrides())
+    def _prepare(self, quick: bool = False) -> _plyform.Prepared:
+        return _plyform.prepare(self.file, self._overrides(), quick)
 
     def __repr__(self) -> str:
         return f"<Case {self.file}>"

@@ -133,6 +133,16 @@ for name in hemisphere_0 hemisphere_45 hemisphere_two_ply hemisphere_five_ply sq
   "$program" check "cases/$name" >said 2>&1 || fail "plyform check cases/$name fails"
   grep -q 'warning: ' said && fail "plyform check cases/$name warns: $(grep 'warning: ' said)"
 done
+# What a scout has found is kept, by case; --quick has none.
+export XDG_CACHE_HOME=$PWD/cache
+expect 0 'are told without --quick' check cases/hemisphere_0 --quick
+expect 0 'found with' check cases/hemisphere_0 --set title='"another"'
+expect 0 'found before, and kept' check cases/hemisphere_0 --set title='"another"'
+expect 0 'mesh from the scene: 7914 triangles' check cases/hemisphere_0 --quick --set title='"another"'
+expect 0 'with the mesh from the scene:' check cases/hemisphere_0
+# Where it cannot be kept it is no error.
+touch no_folder
+XDG_CACHE_HOME=$PWD/no_folder expect 0 'found with' check cases/hemisphere_0
 # A small pocket in a large blank: the scout finds its fillets of 4 mm from elements of 49 mm on.
 expect 0 'triangles, elements of 2.19 to 35 mm' check cases/pocket
 expect 0 'touches ply ply; 600 x 600 x 10 mm, from (-300, -300, 0.6) to (300, 300, 10.6)' \

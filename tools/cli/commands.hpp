@@ -6,7 +6,6 @@
 #include "core/setup/scene_mesh.hpp"
 #include "tools/identify/arguments.hpp"
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,10 +58,10 @@ PreparedCase load_case(const CaseArguments& arguments);
 
 /// Who looks for meshes from the scene, beside the terminal.
 struct MeshingFor {
-  std::filesystem::path known = {};                           ///< as of mesh_from_scene
-  ProgressFile* file = nullptr;                               ///< of a run, kept
-  LivePicture* picture = nullptr;                             ///< likewise, drawn
-  double most_work = std::numeric_limits<double>::infinity(); ///< as of ScoutHooks
+  std::filesystem::path known = {}; ///< as of MeshRequest
+  bool scouts = true;               ///< likewise
+  ProgressFile* file = nullptr;     ///< of a run, kept
+  LivePicture* picture = nullptr;   ///< likewise, drawn
 };
 
 /// mesh_from_scene; shows the progress of its scout, and prints errors to standard error, after
@@ -71,10 +70,11 @@ SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, in
                       const MeshingFor& whom);
 
 /// look_ahead; shows its progress.
-Outlook watched_outlook(const PreparedCase& prepared, int threads);
+Outlook watched_outlook(const PreparedCase& prepared, int threads, bool mesh_to_come = false);
 
 int run_command(const RunArguments& arguments);
-int check_command(const CaseArguments& arguments);
+/// quick: without the run with coarse elements that a mesh from the scene takes.
+int check_command(const CaseArguments& arguments, bool quick);
 int export_command(const ExportArguments& arguments);
 /// tools/cli/call_script.cpp. Calls tools/NAME; `with_program` tells it where plyform is. Returns
 /// only if the script cannot be called.

@@ -5,10 +5,12 @@
 #include "core/run/progress_file.hpp"
 #include "core/setup/outlook.hpp"
 #include "core/setup/prepare_case.hpp"
+#include "core/setup/size_ahead.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/ending_signals.hpp"
 #include "tools/cli/progress_line.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -43,11 +45,13 @@ SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, in
   ProgressLine line;
   ScoutHooks hooks;
   int scouting = 0;
-  hooks.begins = [&](int run) {
+  hooks.begins = [&](int run, const SizeAhead& ahead) {
     scouting = run;
     line.end();
     std::string words = "looking where small elements are needed: a fast run with coarse ones";
-    if (run == 1) fmt::print("{}\n", words);
+    if (run == 1)
+      fmt::print("{}, {:.0f}, about {:.2g} s and {:.0f} MB\n", words, ahead.triangles,
+                 ahead.seconds, std::ceil(ahead.bytes / 1e6));
     std::fflush(stdout);
     if (run > 1) words += fmt::format("; run {}, with smaller ones", run);
     if (whom.file) whom.file->begin(RunPhase::meshing, words);
@@ -57,29 +61,32 @@ SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, in
     if (whom.file) whom.file->show(p, p.fraction, 0);
   };
   hooks.interrupt = &interrupted();
-  hooks.most_work = whom.most_work;
   if (LivePicture* picture = whom.picture)
     hooks.watch = {[=] { return picture->asked(); },
                    [&, picture](const Frame& f) { picture->draw(f, scouting); }};
-  SceneMesh found = mesh_from_scene(prepared, threads, hooks, whom.known);
+  SceneMesh found =
+      mesh_from_scene(prepared, threads,
+                      {.known = whom.known, .kept = true, .scouts = whom.scouts, .scout = hooks});
   line.end();
   for (const CaseError& error : prepared.errors)
     fmt::print(stderr, "{}\n", error.text());
   if (!prepared.value) return found;
   if (!found.sizes.empty()) fmt::print("{}\n", prepared.notes.back());
+  if (found.kept) fmt::print("found before, and kept\n");
   if (found.scouted)
     fmt::print("found with {:.2g} million element-steps in {:.1f} s\n", 1e-6 * found.scout_work,
                found.scout_seconds);
   std::fflush(stdout);
-  if (!found.warning.empty())
-    fmt::print(stderr, "{}: warning: {}\n", arguments.file, found.warning);
+  for (const std::string& warning : found.warnings)
+    fmt::print(stderr, "{}: warning: {}\n", arguments.file, warning);
   return found;
 }
 
-Outlook watched_outlook(const PreparedCase& prepared, int threads) {
+Outlook watched_outlook(const PreparedCase& prepared, int threads, bool mesh_to_come) {
   ProgressLine line;
-  return look_ahead(prepared, threads,
-                    [&](const std::string& words, double fraction) { line.show(words, fraction); });
+  return look_ahead(
+      prepared, threads,
+      [&](const std::string& words, double fraction) { line.show(words, fraction); }, mesh_to_come);
 }
 
 } // namespace plyform

@@ -45,6 +45,7 @@ void add_case_options(CLI::App& command, CaseArguments& to) {
 struct Arguments {
   RunArguments run;
   CaseArguments check;
+  bool quick_check = false;
   ExportArguments results;
   DifferenceArguments difference{{}, {}, {"shear_angle_deg"}, false};
   IdentifyArguments identify;
@@ -99,7 +100,11 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
       app.add_subcommand("check", "say what will be modelled, or every mistake in the case");
   add_case_options(*check, to.check);
   add_accuracy(*check, to.check);
-  commands.push_back({check, [&to] { return check_command(to.check); }});
+  check->add_flag(
+      "--quick", to.quick_check,
+      "what reading, geometry and plies tell, without the run with coarse elements that "
+      "mesh_from = \"scene\" takes");
+  commands.push_back({check, [&to] { return check_command(to.check, to.quick_check); }});
 
   const char* study = "run a study of a case, as tools/study does";
   add_script(app, commands, "study", "study", study, true);

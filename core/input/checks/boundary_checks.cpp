@@ -187,10 +187,11 @@ Difference difference_to_image(const Tool& tool, const TriMesh& surface,
   };
   Difference largest;
   SurfaceHint hint, mirror_hint;
+  const bool of_facets = std::holds_alternative<MeshShapePtr>(tool.shape); // x is on them
   for (const Vec3& x : surface.x) {
     const Vec3 mirrored = x - 2.0 * (x - point).dot(normal) * normal;
-    const double all = std::abs(tool_distance(tool, Vec3::Zero(), x, hint) -
-                                tool_distance(tool, Vec3::Zero(), mirrored, mirror_hint));
+    const double own = of_facets ? 0.0 : tool_distance(tool, Vec3::Zero(), x, hint);
+    const double all = std::abs(own - tool_distance(tool, Vec3::Zero(), mirrored, mirror_hint));
     if (all <= largest.beyond) continue;
     constexpr double margin = 1.5; // of an estimate
     const double facets = margin * (deflection_near(tool.shape, own_frame(x)) +

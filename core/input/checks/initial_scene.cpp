@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 namespace plyform {
 
@@ -52,6 +53,20 @@ TriMesh tool_surface(const Tool& tool, double size, double extent) {
   for (Vec3& x : surface.x)
     x = tool.position + tool.rotation * x;
   return surface;
+}
+
+std::vector<FaceSide> sides_by_edge(const std::vector<Triangle>& faces) {
+  std::vector<FaceSide> sides;
+  sides.reserve(3 * faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [first, second] = std::minmax(faces[f][k], faces[f][(k + 1) % 3]);
+      sides.push_back({first, second, f});
+    }
+  std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
+    return std::tie(a.first, a.second, a.face) < std::tie(b.first, b.second, b.face);
+  });
+  return sides;
 }
 
 void visit_slab(const TriMesh& surface, double low, double high,

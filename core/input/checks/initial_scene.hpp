@@ -46,6 +46,18 @@ double touch_depth(std::span<const FlatPly> plies);
 /// Planes extend `extent` mm from the tool's origin.
 TriMesh tool_surface(const Tool& tool, double size, double extent);
 
+/// A side of a face, its nodes in order of number.
+struct FaceSide {
+  std::int32_t first, second;
+  std::size_t face;
+  bool same_edge(const FaceSide& other) const {
+    return first == other.first && second == other.second;
+  }
+};
+
+/// The sides of all faces, those of one edge one after the other, by number of their faces.
+std::vector<FaceSide> sides_by_edge(const std::vector<Triangle>& faces);
+
 /// Calls visit(p) for points p of the surface with heights between `low` and `high` (mm): corners,
 /// middles of triangles, and the ends and middle of the part of every edge in between.
 void visit_slab(const TriMesh& surface, double low, double high,

@@ -258,12 +258,12 @@ double room_at_end(const SceneCheck& check, std::size_t a, std::size_t b) {
   const std::vector<Tool>& tools = check.scene.tools;
   const PlacedTool first{tools[a], check.surfaces[a], stroke_of(tools[a])},
       second{tools[b], check.surfaces[b], stroke_of(tools[b])};
-  const double overlap = deepest_overlap(first, second, check.bounds, check.touching).gap;
-  if (std::isfinite(overlap)) return overlap;
   const double little = 0.02 * check.stack;
-  return std::max(std::min(least_gap(first, second, check.bounds, check.stack, little).gap,
-                           least_gap(second, first, check.bounds, check.stack, little).gap),
-                  0.0);
+  const double room = std::min(least_gap(first, second, check.bounds, check.stack, little).gap,
+                               least_gap(second, first, check.bounds, check.stack, little).gap);
+  if (room > 2.0 * little) return room;
+  const double overlap = deepest_overlap(first, second, check.bounds, check.touching).gap;
+  return std::isfinite(overlap) ? overlap : std::max(room, 0.0);
 }
 
 bool any_gives_way(const SceneCheck& check) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/checks/tool_overlap.hpp"
 
+#include "core/input/checks/motion_checks.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <queue>
 
 namespace plyform {
@@ -73,7 +74,8 @@ private:
       LastDistance last;
       for (std::size_t i = 0; i < x.size(); i += stride) {
         const Vec3 p = x[i] + a_.shift;
-        if (!area_.contains(p.head<2>()) || last.at_least(p) >= least_.gap) continue;
+        if (!area_.contains(p.head<2>())) continue;
+        if (last.at_least(p) >= std::min(interest_, least_.gap)) continue;
         last = {p, ask(p)};
       }
     }
@@ -126,14 +128,31 @@ LeastGap deepest_common(const PlacedTool& a, const PlacedTool& b, const Eigen::A
   return found;
 }
 
+/// Whether boxes around both say that they have nothing in common.
+bool apart(const PlacedTool& a, const PlacedTool& b) {
+  constexpr double rounder = 1e-3; // of its size: what is round lies beyond its facets
+  const auto box_of = [](const PlacedTool& t) {
+    Box3 box;
+    for (const Vec3& x : t.surface.x)
+      box.extend(x + t.shift);
+    if (box.isEmpty() || std::holds_alternative<MeshShapePtr>(t.tool.shape)) return box;
+    const Vec3 more = Vec3::Constant(rounder * box.diagonal().norm());
+    return Box3(box.min() - more, box.max() + more);
+  };
+  if (!bounded_tool(a.tool) || !bounded_tool(b.tool)) return false;
+  const Box3 of_a = box_of(a), of_b = box_of(b);
+  return !of_a.isEmpty() && !of_b.isEmpty() && !of_a.intersects(of_b);
+}
+
 } // namespace
 
 bool is_closed(const TriMesh& surface) {
-  std::map<std::pair<int, int>, int> uses;
-  for (const Triangle& t : surface.triangles)
-    for (std::size_t k = 0; k < 3; ++k)
-      ++uses[std::minmax(t[k], t[(k + 1) % 3])];
-  return std::all_of(uses.begin(), uses.end(), [](const auto& edge) { return edge.second == 2; });
+  const std::vector<FaceSide> sides = sides_by_edge(surface.triangles);
+  for (std::size_t k = 0; k < sides.size(); k += 2) {
+    const bool two = k + 1 < sides.size() && sides[k].same_edge(sides[k + 1]);
+    if (!two || (k + 2 < sides.size() && sides[k].same_edge(sides[k + 2]))) return false;
+  }
+  return true;
 }
 
 LeastGap least_gap(const PlacedTool& a, const PlacedTool& b, const Eigen::AlignedBox2d& area,
@@ -143,6 +162,7 @@ LeastGap least_gap(const PlacedTool& a, const PlacedTool& b, const Eigen::Aligne
 
 LeastGap deepest_overlap(const PlacedTool& a, const PlacedTool& b, const Eigen::AlignedBox2d& area,
                          double touching) {
+  if (apart(a, b)) return {};
   LeastGap found = least_gap(a, b, area, -touching, 0.5 * touching);
   if (const LeastGap other = least_gap(b, a, area, -touching, 0.5 * touching);
       other.gap < found.gap)

@@ -164,5 +164,56 @@ TEST(PlyPlace, YarnsStayAtTheirAngleWhenTheBlankTurns) {
   EXPECT_GT(3 * along, 2 * mesh.triangles.size()); // two of three inside, none in the band
 }
 
+// A rounding of a thousandth of an element would make elements as small, and with them the steps.
+TEST(RoundBlank, CornersMuchSmallerThanElementsAreSharp) {
+  constexpr double h = 8.0;
+  for (const double radius : {5e-6, 1e-3, 0.05}) {
+    Outline rounded, sharp;
+    append_loop(
+        rounded,
+        round_corners({{-40, -40, radius}, {40, -40, radius}, {40, 40, radius}, {-40, 40, radius}},
+                      true, {}));
+    sharp.boundary = rectangle(-40, -40, 40, 40);
+    EXPECT_EQ(merged_corners(rounded, h), 4u);
+    for (const MeshKind kind : meshes) {
+      BlankSpec spec;
+      spec.element_size = h;
+      spec.mesh = kind;
+      spec.outline = rounded;
+      const BlankMesh mesh = mesh_blank(spec, 0.3, 0.3 + 0.5 * pi);
+      double covered = 0.0, least = h;
+      for (const Triangle& t : mesh.triangles) {
+        covered += 0.5 * turn(mesh.x[t[1]] - mesh.x[t[0]], mesh.x[t[2]] - mesh.x[t[0]]);
+        for (std::size_t k = 0; k < 3; ++k)
+          least = std::min(least, (mesh.x[t[(k + 1) % 3]] - mesh.x[t[k]]).norm());
+      }
+      EXPECT_NEAR(covered, area_of(sharp), 2.0 * 80.0 * radius + 1e-6) << radius; // 4 sides turn
+      EXPECT_GT(least, 0.1 * h) << radius;
+    }
+  }
+  EXPECT_EQ(merged_corners(round(0.05), h), 0u); // a hole has to have three
+}
+
+// The piece that is left of a side and a corner is the side, wherever the loop begins.
+TEST(RoundBlank, SidesKeepTheirArcsBesideCornersThatAreLeftOut) {
+  Outline outline; // half a disc of 40 mm, its corners rounded by next to nothing
+  const Vec2 left(-40.0, 0.0), right(40.0, 0.0), near(40.0, 0.001);
+  append_loop(outline, {{ProfileSegment::Kind::line, left, right, {}, 0},
+                        {ProfileSegment::Kind::line, right, near, {}, 0},
+                        {ProfileSegment::Kind::arc, near, left, {0.0, 0.0}, 1}});
+  EXPECT_EQ(merged_corners(outline, 8.0), 1u);
+  BlankSpec spec;
+  spec.element_size = 8.0;
+  spec.mesh = MeshKind::free;
+  spec.outline = outline;
+  const BlankMesh mesh = mesh_blank(spec, 0.0, 0.5 * pi);
+  for (const Vec2& x : mesh.x)
+    EXPECT_LT(x.norm(), 40.001);
+  double covered = 0.0;
+  for (const Triangle& t : mesh.triangles)
+    covered += 0.5 * turn(mesh.x[t[1]] - mesh.x[t[0]], mesh.x[t[2]] - mesh.x[t[0]]);
+  EXPECT_NEAR(covered, 0.5 * pi * 1600.0, 0.01 * 0.5 * pi * 1600.0);
+}
+
 } // namespace
 } // namespace plyform::round_blank_test

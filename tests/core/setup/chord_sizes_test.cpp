@@ -52,7 +52,7 @@ std::vector<AskedSizes> asked(const Case& data, const Frame& state,
     for (auto& places : sizes.back())
       places.fill(largest);
   }
-  lower_to_chords(data, state, limits, sizes);
+  ChordSizes(data, limits).lower(state, sizes);
   return sizes;
 }
 
@@ -94,6 +94,26 @@ TEST(ChordSizes, AreNoSmallerThanAFewThicknessesOverAnEdge) {
   const Case data = over_sphere(1, 0.05);
   const auto sizes = asked(data, wrapped(data, 0.05, 0.05));
   EXPECT_DOUBLE_EQ(sizes[0][0][0], 3.0 * data.fabrics[0].thickness);
+}
+
+// What is known from states before spares work and changes no size: plies that slide and turn over
+// the sphere, by steps of which many are too short for another look.
+TEST(ChordSizes, AreThoseOfEachStateAlone) {
+  const double radius = 25.0;
+  const Case data = over_sphere(2, radius);
+  Frame state = wrapped(data, radius, 3.0);
+  std::vector<AskedSizes> together = asked(data, state), alone = together;
+  ChordSizes chords(data);
+  for (int step = 0; step < 60; ++step) {
+    const double turn = step % 7 == 0 ? 0.05 : 0.002; // rad
+    const Eigen::AngleAxisd by(turn, Vec3(1.0, 0.1 * step, 0.3).normalized());
+    for (PlyFrame& ply : state.plies)
+      for (Vec3& x : ply.x)
+        x = by * x * (step % 11 == 0 ? 1.003 : 1.0);
+    chords.lower(state, together);
+    ChordSizes(data).lower(state, alone);
+    ASSERT_EQ(together, alone) << step;
+  }
 }
 
 } // namespace

@@ -6,9 +6,11 @@
 #include "support/case_files.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <unistd.h>
 
 namespace plyform::scene_mesh_test {
@@ -50,16 +52,100 @@ TEST(SceneMesh, IsFineOverTheDieTheSameForAnyThreadsAndTakenFromAFile) {
   EXPECT_TRUE(same(one.meshes, later.meshes));
 }
 
-TEST(SceneMesh, IsNotKnownWhereLookingForItTakesTooMuch) {
-  PreparedCase bounded = small_hemisphere("scene");
+TEST(SceneMesh, IsOfWhatTheScoutHadSeenAtItsBudget) {
+  PreparedCase whole = small_hemisphere("scene"), bounded = small_hemisphere("scene");
   ASSERT_TRUE(bounded.value) << all_texts(bounded);
-  const std::vector<BlankMesh> before = bounded.meshes;
-  const SceneMesh found = mesh_from_scene(bounded, 1, {.most_work = 1e5});
-  EXPECT_NE(found.not_known.find("are not known"), std::string::npos);
-  EXPECT_FALSE(found.scouted);
+  const SceneMesh all = mesh_from_scene(whole, 1);
+  const SceneMesh found =
+      mesh_from_scene(bounded, 1, {.scout = {.most_work = 0.5 * all.scout_work}});
+  ASSERT_TRUE(bounded.value) << all_texts(bounded);
+  EXPECT_TRUE(found.scouted);
+  EXPECT_GE(found.scout_work, 0.5 * all.scout_work);
+  EXPECT_LT(found.scout_work, 0.7 * all.scout_work);
+  ASSERT_EQ(found.warnings.size(), all.warnings.size() + 1);
+  EXPECT_NE(found.warnings[0].find("was ended at its budget"), std::string::npos);
+  EXPECT_LT(found.smallest, found.largest); // the plies have met the die
+  EXPECT_LE(found.triangles, all.triangles);
+}
+
+TEST(SceneMesh, IsUnknownWithoutAScout) {
+  PreparedCase prepared = small_hemisphere("scene");
+  ASSERT_TRUE(prepared.value) << all_texts(prepared);
+  const std::vector<BlankMesh> before = prepared.meshes;
+  const SceneMesh found = mesh_from_scene(prepared, 1, {.scouts = false});
+  EXPECT_TRUE(found.unknown);
   EXPECT_TRUE(found.sizes.empty());
-  EXPECT_TRUE(bounded.value);
-  EXPECT_TRUE(same(before, bounded.meshes));
+  EXPECT_TRUE(prepared.value);
+  EXPECT_TRUE(same(before, prepared.meshes));
+}
+
+/// The cache folder of this test, and the one before again at its end.
+class CacheFolder {
+public:
+  CacheFolder() {
+    if (const char* set = std::getenv("XDG_CACHE_HOME")) before_ = set;
+    setenv("XDG_CACHE_HOME", path.c_str(), 1);
+  }
+  ~CacheFolder() {
+    if (before_)
+      setenv("XDG_CACHE_HOME", before_->c_str(), 1);
+    else
+      unsetenv("XDG_CACHE_HOME");
+    fs::remove_all(path);
+  }
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(path / "plyform"))
+      found.push_back(entry.path());
+    return found;
+  }
+  const fs::path path =
+      fs::temp_directory_path() / ("plyform_kept_sizes_" + std::to_string(getpid()));
+
+private:
+  std::optional<std::string> before_;
+};
+
+TEST(KeptSizes, SpareTheNextScoutOfTheSameCase) {
+  const CacheFolder cache;
+  PreparedCase first = small_hemisphere("scene"), again = small_hemisphere("scene");
+  ASSERT_TRUE(first.value) << all_texts(first);
+  const SceneMesh found = mesh_from_scene(first, 1, {.kept = true});
+  EXPECT_TRUE(found.scouted);
+  const SceneMesh kept = mesh_from_scene(again, 1, {.kept = true, .scouts = false});
+  EXPECT_FALSE(kept.unknown);
+  EXPECT_FALSE(kept.scouted);
+  EXPECT_TRUE(kept.kept);
+  EXPECT_EQ(kept.warnings, found.warnings);
+  EXPECT_EQ(first.identity, again.identity);
+  EXPECT_TRUE(same(first.meshes, again.meshes));
+
+  PreparedCase other = prepare_case(PLYFORM_CASES "/verify/hemisphere_small.toml",
+                                    {{"blanks.square.mesh_from", "scene"}});
+  EXPECT_TRUE(mesh_from_scene(other, 1, {.kept = true, .scouts = false}).unknown);
+}
+
+TEST(KeptSizes, AreFoundAnewWhereTheirFileIsDamaged) {
+  const CacheFolder cache;
+  PreparedCase first = small_hemisphere("scene"), again = small_hemisphere("scene");
+  mesh_from_scene(first, 1, {.kept = true});
+  ASSERT_EQ(cache.files().size(), 1u);
+  fs::resize_file(cache.files()[0], fs::file_size(cache.files()[0]) / 2);
+  EXPECT_TRUE(mesh_from_scene(again, 1, {.kept = true, .scouts = false}).unknown);
+  const SceneMesh anew = mesh_from_scene(again, 1, {.kept = true});
+  EXPECT_TRUE(anew.scouted);
+  EXPECT_TRUE(same(first.meshes, again.meshes));
+}
+
+TEST(KeptSizes, RememberThatTheBudgetHasEndedTheScout) {
+  const CacheFolder cache;
+  PreparedCase first = small_hemisphere("scene"), again = small_hemisphere("scene");
+  const SceneMesh found = mesh_from_scene(first, 1, {.kept = true, .scout = {.most_work = 1e5}});
+  ASSERT_FALSE(found.warnings.empty());
+  const SceneMesh kept = mesh_from_scene(again, 1, {.kept = true});
+  EXPECT_TRUE(kept.kept);
+  EXPECT_EQ(kept.warnings, found.warnings);
+  EXPECT_TRUE(same(first.meshes, again.meshes));
 }
 
 TEST(SceneMesh, OfAFileWithoutSizesIsAMistakeOfTheCase) {

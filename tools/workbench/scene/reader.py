@@ -69,22 +69,8 @@ def draft(plyform, request: dict) -> tuple[dict, bytes]:
     return {}, scene_bytes(case.scene(), version_of(request), found)
 
 
-def without_scouts(file: str) -> dict[str, str]:
-    """Settings by which no mesh is taken from a fast run of the scene: that takes seconds."""
-    from base.files import toml_of
-    try:
-        blanks = toml_of(Path(file).read_text(encoding="utf-8-sig")).get("blanks")
-    except (OSError, ValueError, RecursionError):
-        return {}
-    return {f"blanks.{name}.mesh_from": "element_size" for name, blank in (blanks.items() if isinstance(blanks, dict)
-            else ()) if isinstance(blank, dict) and blank.get("mesh_from") == "scene" and "." not in name}
-
-
 def check(plyform, request: dict) -> tuple[dict, bytes]:
-    settings = without_scouts(request["file"])
-    found = plyform.Case(request["file"], settings).check()
-    if any(one.file == "--set" for one in found.mistakes):  # of mesh_from itself
-        found = plyform.Case(request["file"]).check()
+    found = plyform.Case(request["file"]).check(quick=True)
     mistakes = [{name: getattr(one, name, "") for name in ("file", "line", "column", "key", "item", "value", "rule",
                                                            "remedy")} | {"text": str(one)}
                 for one in found.mistakes]
