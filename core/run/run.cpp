@@ -289,19 +289,15 @@ private:
   }
 
   void write(bool last) {
-    if (hooks_.glance && !last) {
-      hooks_.glance(s_);
-      state_.outputs_written = outputs_due(s_);
-      return;
-    }
     const bool first = state_.outputs_written < 0;
+    state_.outputs_written = outputs_due(s_);
+    if (hooks_.glance && !last) return hooks_.glance(s_);
     const double stroke = first ? 0.0 : result_.last.stroke_mm,
                  time = first ? 0.0 : result_.last.time;
     follow_known_forces(s_, stroke, time, state_.known_forces);
     follow_astray_forces(s_, state_.astray);
     result_.last = make_frame(s_, tool_surfaces_, state_.energy, pool_);
     follow_packing(s_, result_.last, state_.packing);
-    state_.outputs_written = outputs_due(s_);
     if (hooks_.frame) hooks_.frame(result_.last);
   }
 

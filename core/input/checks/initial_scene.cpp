@@ -31,6 +31,10 @@ bool covers(const FlatPly& ply, const Vec2& p) {
   return inside;
 }
 
+bool bounded_tool(const Tool& tool) {
+  return !std::holds_alternative<Plane>(tool.shape);
+}
+
 double touch_depth(std::span<const FlatPly> plies) {
   constexpr double share = 1e-3; // of a thickness
   double least = std::numeric_limits<double>::infinity();

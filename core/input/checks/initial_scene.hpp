@@ -37,6 +37,9 @@ struct LastDistance {
 /// Signed distance (mm) of p (space) to the tool moved by `shift`; `hint` as for signed_distance.
 double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, SurfaceHint& hint);
 
+/// Whether the tool has a bound in every direction: a plane has none.
+bool bounded_tool(const Tool& tool);
+
 /// Depth (mm) up to which one counts as touching: a thousandth of the thinnest ply. Coordinates
 /// have been rounded when files were written, and contact does not feel so little.
 double touch_depth(std::span<const FlatPly> plies);

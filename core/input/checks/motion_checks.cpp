@@ -189,10 +189,6 @@ void check_extents(MotionCheck& check) {
 
 } // namespace
 
-bool bounded_tool(const Tool& tool) {
-  return !std::holds_alternative<Plane>(tool.shape);
-}
-
 ToolWay way_of(const Tool& tool, const TriMesh& surface, const std::vector<FlatPly>& plies) {
   ToolWay way;
   for (const Vec3& x : surface.x)

@@ -24,7 +24,4 @@ struct ToolWay {
 /// where points of the surface meet them.
 ToolWay way_of(const Tool& tool, const TriMesh& surface, const std::vector<FlatPly>& plies);
 
-/// Whether the tool has a bound in every direction: a plane has none.
-bool bounded_tool(const Tool& tool);
-
 } // namespace plyform

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/checks/tool_overlap.hpp"
 
-#include "core/input/checks/motion_checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <queue>
