@@ -203,7 +203,7 @@ std::string memory_text(const Scene& s) {
   for (const PlyBody& ply : s.plies)
     triangles += static_cast<double>(ply.membrane.triangles.size());
   return fmt::format("{:.0f} triangles, about {:.0f} MB of memory", triangles,
-                     std::ceil(bytes_for(triangles) / 1e6));
+                     std::ceil(bytes_for(s.data, triangles) / 1e6));
 }
 
 /// Measures the wall time of a step, s, over a few steps, fewer of a large scene: their mean
@@ -231,6 +231,30 @@ std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, const OutlookProgres
   return std::nullopt;
 }
 
+/// Of a case so large that its scene alone would take longer than a check should: what it takes.
+std::optional<Outlook> only_size(const PreparedCase& prepared, int threads) {
+  constexpr double most_triangles = 1e6; // some twenty seconds
+  double triangles = 0.0;
+  for (const BlankMesh& mesh : prepared.meshes)
+    triangles += static_cast<double>(mesh.triangles.size());
+  if (triangles <= most_triangles) return std::nullopt;
+  const SizeAhead size = size_of_meshes(*prepared.value, prepared.meshes, threads);
+  Outlook outlook;
+  outlook.steps = size.steps;
+  outlook.seconds = size.seconds;
+  outlook.lines.push_back(prepared.value->title);
+  describe_fabrics(*prepared.value, outlook.lines);
+  describe_outlines(*prepared.value, outlook.lines);
+  outlook.lines.insert(outlook.lines.end(), prepared.notes.begin(), prepared.notes.end());
+  say(outlook.lines,
+      "    warning: {:.0f} triangles, about {:.2g} GB of memory{}: no step of so many was tried, "
+      "and "
+      "nothing is said of how plies and tools meet; larger elements would tell",
+      triangles, size.bytes / 1e9,
+      size.seconds > 0.0 ? fmt::format(" and {:.2g} s", size.seconds) : std::string());
+  return outlook;
+}
+
 } // namespace
 
 Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgress& progress,
@@ -239,6 +263,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgr
     if (progress) progress(words, fraction);
   };
   const Case& data = *prepared.value;
+  if (std::optional<Outlook> size = only_size(prepared, threads)) return *size;
   ThreadPool pool(threads);
   tell("makes the scene", 0.0);
   Scene s = make_scene(data, prepared.meshes);

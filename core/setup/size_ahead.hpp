@@ -32,8 +32,9 @@ SizeAhead size_of_meshes(const Case& data, const std::vector<BlankMesh>& meshes,
 /// that a wave of tension takes through one. 0 where the ply has no yarns.
 double steps_ahead(const Case& data, const Ply& ply, double size);
 
-/// Bytes of memory, about, that a run with so many triangles of all plies takes at its peak.
-double bytes_for(double triangles);
+/// Bytes of memory, about, that a run of the case with so many triangles of all plies takes at its
+/// peak: the program's own, and what plies and meshes of tools take.
+double bytes_for(const Case& data, double triangles);
 
 /// Bytes of memory that this machine has.
 double machine_memory();

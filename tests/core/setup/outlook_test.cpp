@@ -53,7 +53,19 @@ TEST(Outlook, TellsTheMemory) {
   });
   EXPECT_TRUE(std::is_sorted(done.begin(), done.end()) && done.back() > 0.9 && done.back() < 1.0);
   EXPECT_NE(outlook.lines.back().find("MB of memory"), std::string::npos) << outlook.lines.back();
-  EXPECT_GT(bytes_for(480000.0), 1e9);
+  EXPECT_GT(bytes_for(*prepared.value, 480000.0), 1e9);
+}
+
+TEST(Outlook, OfMillionsOfTrianglesTellsWhatTheyTakeAndMakesNoScene) {
+  const PreparedCase prepared = prepare_case(
+      PLYFORM_CASES "/hemisphere_0/case.toml",
+      {{"blanks.square.mesh_from", "element_size"}, {"blanks.square.element_size", "0.45"}},
+      CaseSize::any);
+  ASSERT_TRUE(prepared.value);
+  const Outlook outlook = look_ahead(prepared, 1);
+  EXPECT_NE(outlook.lines.back().find("no step of so many was tried"), std::string::npos);
+  EXPECT_GT(outlook.seconds, 0.0);
+  EXPECT_EQ(outlook.step, 0.0);
 }
 
 } // namespace
