@@ -77,6 +77,11 @@ SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, SurfaceHint&
   return std::visit([&](const auto& s) { return distance_of(s)(p, hint); }, shape);
 }
 
+std::size_t facet_count(const ToolShape& shape) {
+  const auto* mesh = std::get_if<MeshShapePtr>(&shape);
+  return mesh ? (*mesh)->surface().triangles.size() : 0;
+}
+
 double smallest_radius(const ToolShape& shape) {
   return std::visit([](const auto& s) { return smallest(s); }, shape);
 }

@@ -107,6 +107,9 @@ Box3 box_of(const ToolShape& shape, double extent);
 /// A tool may be a thousand times as large as the plies.
 double diagonal_of(const ToolShape& shape, double extent);
 
+/// Facets of a mesh; 0 of other shapes.
+std::size_t facet_count(const ToolShape& shape);
+
 /// Smallest radius of curvature (mm) of the shape that a sheet has to follow; 0 for a sharp edge,
 /// infinity for a plane. Inner corners do not count: a sheet bridges them. Of a mesh that of the
 /// surface that it stands for (mesh_curvature.hpp).

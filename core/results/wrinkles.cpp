@@ -54,10 +54,10 @@ public:
     for (const Vec2& x : flat_)
       low_ = low_.cwiseMin(x), high = high.cwiseMax(x);
     columns_ = static_cast<int>((high.x() - low_.x()) / step) + 1;
-    rows_ = static_cast<int>((high.y() - low_.y()) / step) + 1;
+    rows_.resize(static_cast<std::size_t>((high.y() - low_.y()) / step) + 1);
     // The remainder is divided between both sides, so that rounding puts no column onto the border.
-    low_ += 0.5 * (high - low_ - step * Vec2(columns_ - 1, rows_ - 1));
-    places_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    low_ += 0.5 * (high - low_ - step * Vec2(columns_ - 1, rows() - 1));
+    make_rows();
     for (std::size_t t = 0; t < ply.triangles.size(); ++t)
       fill(t);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -74,26 +74,38 @@ public:
     }
   }
 
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
+  int rows() const { return static_cast<int>(rows_.size()); }
   double step() const { return step_; }
   /// A place of the grid; null where the ply does not cover it.
   Place* find(int i, int j) {
+    if (j < 0 || j >= rows() || !rows_[at(j)].has(i)) return nullptr;
     Place& p = places_[index(i, j)];
     return p.inside ? &p : nullptr;
   }
 
-  /// |D_0| (mm) at the places of row j from column `first` on, before column `last`, of lines whose
-  /// points are (di, dj) apart; NaN where the ply does not cover all three of its points.
-  const Eigen::ArrayXd& bends(int j, int first, int last, int di, int dj) {
-    const Eigen::Index count = std::max(0, last - first);
+  /// Columns from first on, before last.
+  struct Columns {
+    int first = 0, last = 0;
+    bool has(int i) const { return i >= first && i < last; }
+  };
+
+  /// |D_0| (mm) at the places of row j of lines whose points are (di, dj) apart, for the columns
+  /// that may have all three; NaN where the ply does not cover them.
+  const Eigen::ArrayXd& bends(int j, int di, int dj, Columns& columns) {
+    const Row &before = rows_[at(j - dj)], &row = rows_[at(j)], &after = rows_[at(j + dj)];
+    columns = {std::max({row.first, before.first + di, after.first - di}),
+               std::min({row.last, before.last + di, after.last - di})};
+    const Eigen::Index count = std::max(0, columns.last - columns.first);
     bends_.setZero(count);
     if (count == 0) return bends_;
-    const auto here = static_cast<Eigen::Index>(index(first, j)),
-               apart = static_cast<Eigen::Index>(dj) * columns_ + di;
+    const auto place = [&](int i, int in_row) {
+      return static_cast<Eigen::Index>(index(i, in_row));
+    };
+    const Eigen::Index here = place(columns.first, j), back = place(columns.first - di, j - dj),
+                       on = place(columns.first + di, j + dj);
     const auto bend = [&](std::size_t k) {
       const auto x = [&](Eigen::Index from) { return x_[k].segment(from, count); };
-      return n_[k].segment(here, count) * (x(here) - 0.5 * (x(here - apart) + x(here + apart)));
+      return n_[k].segment(here, count) * (x(here) - 0.5 * (x(back) + x(on)));
     };
     bends_ = (bend(0) + bend(1) + bend(2)).abs();
     return bends_;
@@ -123,9 +135,45 @@ public:
   }
 
 private:
+  /// The places that a row has: of a strip across its fibres the box is mostly empty.
+  struct Row : Columns {
+    std::size_t begin = 0; ///< of its places
+  };
+
   std::size_t index(int i, int j) const {
-    return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(i);
+    return rows_[at(j)].begin + static_cast<std::size_t>(i - rows_[at(j)].first);
+  }
+
+  /// Columns and rows of the grid in the box of a triangle.
+  std::pair<Columns, Columns> box_of(std::size_t triangle) const {
+    const Triangle& t = ply_.triangles[triangle];
+    const Vec2 &a = flat_[at(t[0])], &b = flat_[at(t[1])], &c = flat_[at(t[2])];
+    const Vec2 from = (a.cwiseMin(b).cwiseMin(c) - low_) / step_,
+               to = (a.cwiseMax(b).cwiseMax(c) - low_) / step_;
+    const auto range = [](double least, double most, int count) {
+      return Columns{std::max(0, static_cast<int>(std::ceil(least))),
+                     std::min(count, static_cast<int>(std::floor(most)) + 1)};
+    };
+    return {range(from.x(), to.x(), columns_), range(from.y(), to.y(), rows())};
+  }
+
+  void make_rows() {
+    for (Row& row : rows_)
+      row.first = columns_;
+    for (std::size_t t = 0; t < ply_.triangles.size(); ++t) {
+      const auto [columns, in_rows] = box_of(t);
+      for (int j = in_rows.first; j < in_rows.last && columns.first < columns.last; ++j) {
+        rows_[at(j)].first = std::min(rows_[at(j)].first, columns.first);
+        rows_[at(j)].last = std::max(rows_[at(j)].last, columns.last);
+      }
+    }
+    std::size_t places = 0;
+    for (Row& row : rows_) {
+      row.begin = places;
+      row.first = std::min(row.first, row.last);
+      places += static_cast<std::size_t>(row.last - row.first);
+    }
+    places_.resize(places);
   }
 
   /// (2)
@@ -151,11 +199,9 @@ private:
     const Vec2 &a = flat_[at(t[0])], &b = flat_[at(t[1])], &c = flat_[at(t[2])];
     const auto cross = [](const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); };
     const double whole = cross(b - a, c - a);
-    const Vec2 from = (a.cwiseMin(b).cwiseMin(c) - low_) / step_,
-               to = (a.cwiseMax(b).cwiseMax(c) - low_) / step_;
-    for (int j = std::max(0, static_cast<int>(std::ceil(from.y()))); j < rows_ && j <= to.y(); ++j)
-      for (int i = std::max(0, static_cast<int>(std::ceil(from.x()))); i < columns_ && i <= to.x();
-           ++i) {
+    const auto [columns, in_rows] = box_of(triangle);
+    for (int j = in_rows.first; j < in_rows.last; ++j)
+      for (int i = columns.first; i < columns.last; ++i) {
         const Vec2 p = low_ + step_ * Vec2(i, j);
         const double wb = cross(p - a, c - a) / whole, wc = cross(b - a, p - a) / whole;
         // tolerance of a weight, so that points on a side are found
@@ -173,7 +219,8 @@ private:
   std::vector<Vec3> normals_;
   std::vector<Vec2> flat_;
   Vec2 low_;
-  int columns_ = 0, rows_ = 0;
+  int columns_ = 0;
+  std::vector<Row> rows_;
   std::vector<Place> places_;
   std::array<Eigen::ArrayXd, 3> x_, n_; ///< of the places, by coordinate; NaN outside the ply
   Eigen::ArrayXd bends_;
@@ -251,13 +298,14 @@ double share_of_tools(Grid& grid, const Line& line, double half_wave) {
 /// are (di, dj) grid steps apart.
 void search_along(Grid& grid, int di, int dj, Wrinkle& best) {
   const double half_wave = grid.step() * std::hypot(di, dj);
-  const int beside = 2 * std::abs(di), above = 2 * std::abs(dj); // a line reaches so far
+  const int above = 2 * std::abs(dj); // a line reaches so far
+  Grid::Columns columns;
   constexpr double rounding = 1e-9;
   for (int j = above; j < grid.rows() - above; ++j) {
-    const Eigen::ArrayXd& bends = grid.bends(j, beside, grid.columns() - beside, di, dj);
+    const Eigen::ArrayXd& bends = grid.bends(j, di, dj, columns);
     const double least = (1.0 - rounding) * std::min(best.height, least_wrinkle);
-    for (int i = beside; i < grid.columns() - beside; ++i) {
-      if (!(bends[i - beside] >= least)) continue; // most lines end here: H is at most this
+    for (int i = columns.first; i < columns.last; ++i) {
+      if (!(bends[i - columns.first] >= least)) continue; // most lines end here: H is at most this
       Line line{};
       const auto have = [&](int k) {
         return (line[at(k + 2)] = grid.find(i + k * di, j + k * dj)) != nullptr;

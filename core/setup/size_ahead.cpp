@@ -2,13 +2,14 @@
 #include "core/setup/size_ahead.hpp"
 
 #include "base/thread_pool.hpp"
-#include "contact/shapes/mesh_shape.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace plyform {
@@ -100,14 +101,22 @@ double bytes_for(const Case& data, double triangles) {
   constexpr double own = 3.6e7, a_triangle = 3072.0, a_facet = 1100.0;
   double facets = 0.0;
   for (const Tool& tool : data.tools)
-    if (const auto* mesh = std::get_if<MeshShapePtr>(&tool.shape))
-      facets += static_cast<double>((*mesh)->surface().triangles.size());
+    facets += static_cast<double>(facet_count(tool.shape));
   return own + a_triangle * triangles + a_facet * facets;
 }
 
 double machine_memory() {
-  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
-  return pages > 0 && bytes > 0 ? static_cast<double>(pages) * static_cast<double>(bytes) : 4e9;
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  double memory =
+      pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : 4e9;
+  if (rlimit of{}; getrlimit(RLIMIT_AS, &of) == 0 && of.rlim_cur != RLIM_INFINITY)
+    memory = std::min(memory, static_cast<double>(of.rlim_cur));
+  for (const char* file :
+       {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+    double limit = 0.0; // "max" where there is none
+    if (std::ifstream(file) >> limit && limit > 0.0) memory = std::min(memory, limit);
+  }
+  return memory;
 }
 
 bool too_large(const SizeAhead& size, double memory) {

@@ -36,7 +36,8 @@ double steps_ahead(const Case& data, const Ply& ply, double size);
 /// peak: the program's own, and what plies and meshes of tools take.
 double bytes_for(const Case& data, double triangles);
 
-/// Bytes of memory that this machine has.
+/// Bytes of memory that this machine has, or what a container or a limit of the process leaves of
+/// it.
 double machine_memory();
 
 /// More than half of the memory, or more than a day: nobody starts that by mistake and is happy.
