@@ -226,7 +226,8 @@ bool has_pretension(const Fabric& fabric) {
 bool balanced(const Fabric& fabric) {
   const auto same = [](const YarnFamily& p, const YarnFamily& q) {
     return p.tension == q.tension && p.bending == q.bending &&
-           p.in_plane_bending == q.in_plane_bending && p.density == q.density;
+           p.in_plane_bending == q.in_plane_bending && p.density == q.density &&
+           p.relaxation == q.relaxation && p.bending_viscosity == q.bending_viscosity;
   };
   const auto same_crimp = [](const Crossing& c) {
     return !c.crimp || (c.crimp->crimp[0] == c.crimp->crimp[1] &&

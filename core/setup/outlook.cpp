@@ -16,6 +16,7 @@
 #include "core/setup/outlook_plies.hpp"
 #include "core/setup/size_ahead.hpp"
 #include "core/setup/stitch_outlook.hpp"
+#include "core/setup/symmetry_ahead.hpp"
 #include "core/setup/tool_cuts.hpp"
 #include "core/solver/element_mass_scaling.hpp"
 #include "core/solver/force_kinds.hpp"
@@ -284,6 +285,8 @@ Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgr
   describe_compaction(s, pool, lines);
   tell("looks at boundaries and steps", 0.45);
   for (std::string& line : boundaries_ahead(s))
+    lines.push_back(std::move(line));
+  for (std::string& line : symmetry_ahead(data, prepared.meshes))
     lines.push_back(std::move(line));
   for (std::string& line : friction_ahead(data))
     lines.push_back(std::move(line));

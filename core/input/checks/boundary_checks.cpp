@@ -2,6 +2,7 @@
 // Checks of boundaries that need the meshes of the plies.
 #include "base/format.hpp"
 #include "base/text.hpp"
+#include "core/input/checks/mirror_images.hpp"
 #include "core/input/checks/scene_checks.hpp"
 #include "core/model/boundary.hpp"
 
@@ -59,10 +60,6 @@ void check_no_conflict(BoundaryCheck& check, std::size_t a, std::size_t b) {
                           "let their boxes, edges or bars not meet, or hold different directions");
 }
 
-Vec3 normal_of(const SymmetryPlane& plane) {
-  return {plane.normal.x(), plane.normal.y(), 0.0};
-}
-
 /// The blanks must lie on one side of the plane of symmetry and have nodes on it.
 void check_half_blank(BoundaryCheck& check, std::size_t index) {
   const Boundary& boundary = check.scene.boundaries[index];
@@ -84,121 +81,20 @@ void check_half_blank(BoundaryCheck& check, std::size_t index) {
   }
 }
 
-/// Whether two directions (rad) are one line.
-bool same_line(double a, double b) {
-  return std::abs(std::sin(a - b)) < 1e-6;
-}
-
-/// Whether the mirror image of each direction of stitches has the same stitches. along: rad, of the
-/// plane.
-bool stitches_are_symmetric(const Ply& ply, const Fabric& fabric, double along) {
-  const std::vector<Stitch>& all = fabric.stitches;
-  return std::all_of(all.begin(), all.end(), [&](const Stitch& stitch) {
-    return std::any_of(all.begin(), all.end(), [&](const Stitch& other) {
-      return stitch.density == other.density && stitch.law == other.law &&
-             same_line(2.0 * along - ply.angle - stitch.angle, ply.angle + other.angle);
-    });
-  });
-}
-
-/// Whether each crossing has the mirror image of its families and its law. image: of each family
-/// the one that is its mirror image. A crossing whose families are each other's image shears as its
-/// image does; any other the other way.
-bool crossings_are_symmetric(const Fabric& fabric, const std::vector<std::size_t>& image) {
-  const std::vector<Crossing>& all = fabric.crossings;
-  return std::all_of(all.begin(), all.end(), [&](const Crossing& c) {
-    const std::size_t first = image[c.first], second = image[c.second];
-    if (first == c.second && second == c.first) return true;
-    return c.shear.odd() && std::any_of(all.begin(), all.end(), [&](const Crossing& other) {
-             return std::minmax(other.first, other.second) == std::minmax(first, second) &&
-                    c.shear == other.shear;
-           });
-  });
-}
-
 /// The fibre directions of each ply must be symmetric to the plane.
 void check_fibres(BoundaryCheck& check, std::size_t index) {
   const Boundary& boundary = check.scene.boundaries[index];
-  const auto& plane = boundary.as<SymmetryPlane>();
-  const double along = std::atan2(plane.normal.x(), -plane.normal.y());
   for (std::size_t p = 0; p < check.scene.plies.size(); ++p) {
     if (boundary.ply >= 0 && boundary.ply != static_cast<int>(p)) continue;
     const Ply& ply = check.scene.plies[p];
     const Fabric& fabric = check.scene.fabrics[ply.fabric];
-    if (!fabric.has_yarns()) continue;
-    if (!stitches_are_symmetric(ply, fabric, along))
-      check.fail(index,
-                 fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror image "
-                             "has the stitches in other directions",
-                             ply.name, ply.angle / degree),
-                 "model the whole blank");
-    const auto image_is_family = [&](const YarnFamily& family, const YarnFamily& other) {
-      return same_line(2.0 * along - ply.angle - family.angle, ply.angle + other.angle);
-    };
-    const std::vector<YarnFamily>& families = fabric.families;
-    std::vector<std::size_t> image; // of each family that has one
-    bool own = true;                // whether each is its own
-    for (std::size_t a = 0; a < families.size(); ++a) {
-      std::size_t b = image_is_family(families[a], families[a]) ? a : 0;
-      while (b < families.size() && !image_is_family(families[a], families[b]))
-        ++b;
-      if (b < families.size()) image.push_back(b);
-      own = own && b == a;
-    }
-    const bool exchanged = image.size() == families.size();
-    if (exchanged && (own || balanced(fabric))) {
-      if (!crossings_are_symmetric(fabric, image))
-        check.fail(
-            index,
-            fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror image "
-                        "shears the other way, or at other crossings, and the laws of shear "
-                        "of fabric {} differ",
-                        ply.name, ply.angle / degree, fabric.name),
-            "model the whole blank");
-      continue;
-    }
-    std::vector<std::string> names;
-    for (const YarnFamily& family : families)
-      names.push_back(family.name);
-    check.fail(index,
-               exchanged
-                   ? fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror "
-                                 "image has {} exchanged, and in fabric {} they differ",
-                                 ply.name, ply.angle / degree, joined(names, " and "), fabric.name)
-                   : fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror "
-                                 "image has the fibres in other directions",
-                                 ply.name, ply.angle / degree),
-               "model the whole blank");
+    for (const std::string& what : broken_by_fibres(ply, fabric, boundary.as<SymmetryPlane>()))
+      check.fail(
+          index,
+          fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror image {}",
+                      ply.name, ply.angle / degree, what),
+          "model the whole blank");
   }
-}
-
-/// The place at which a tool's mirror image differs most, beyond what flat facets make of a curved
-/// surface: two nodes that are each other's image on the surface may lie opposite to the middle of
-/// a facet. Contact is with the half of the tool on the ply's side, so that this much does nothing.
-struct Difference {
-  double beyond = 0.0, all = 0.0, of_facets = 0.0; ///< mm
-};
-
-Difference difference_to_image(const Tool& tool, const TriMesh& surface,
-                               const SymmetryPlane& plane) {
-  const Vec3 normal = normal_of(plane), point(plane.point.x(), plane.point.y(), 0.0);
-  const auto own_frame = [&](const Vec3& x) {
-    return Vec3(tool.rotation.transpose() * (x - tool.position));
-  };
-  Difference largest;
-  SurfaceHint hint, mirror_hint;
-  const bool of_facets = std::holds_alternative<MeshShapePtr>(tool.shape); // x is on them
-  for (const Vec3& x : surface.x) {
-    const Vec3 mirrored = x - 2.0 * (x - point).dot(normal) * normal;
-    const double own = of_facets ? 0.0 : tool_distance(tool, Vec3::Zero(), x, hint);
-    const double all = std::abs(own - tool_distance(tool, Vec3::Zero(), mirrored, mirror_hint));
-    if (all <= largest.beyond) continue;
-    constexpr double margin = 1.5; // of an estimate
-    const double facets = margin * (deflection_near(tool.shape, own_frame(x)) +
-                                    deflection_near(tool.shape, own_frame(mirrored)));
-    if (all - facets > largest.beyond) largest = {all - facets, all, facets};
-  }
-  return largest;
 }
 
 /// Tools must be symmetric to the plane and remain so when they move.
@@ -209,7 +105,7 @@ void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
   const double same = 20.0 * touch_depth(check.plies);
   for (std::size_t t = 0; t < check.scene.tools.size(); ++t) {
     const Tool& tool = check.scene.tools[t];
-    const Difference largest = difference_to_image(tool, surfaces[t], plane);
+    const Difference largest = difference_to_image(tool, tool, surfaces[t], plane);
     if (largest.beyond > same)
       check.fail(
           index,
