@@ -91,8 +91,13 @@ void make_room(const std::filesystem::path& folder) {
   }
 }
 
+/// What stands beside the sizes: the sum of their bytes, then what their scout has left unseen.
 std::filesystem::path words_beside(std::filesystem::path file) {
-  return file += ".ended";
+  return file += ".words";
+}
+
+std::string words_of(const std::string& sizes, const std::string& ended) {
+  return fmt::format("{:016x}\n{}", checkpoint_sum(sizes), ended);
 }
 
 } // namespace
@@ -101,19 +106,19 @@ std::optional<Scouted> kept_sizes(const std::string& identity, std::size_t plies
   const std::filesystem::path file = file_of(identity);
   std::error_code none;
   if (file.empty() || !std::filesystem::exists(file, none)) return std::nullopt;
+  std::string reason;
+  const std::optional<std::string> words = read_file(words_beside(file), most_words, reason);
+  if (!words || words->find('\n') == std::string::npos) return std::nullopt;
   Scouted kept;
+  kept.ended = words->substr(words->find('\n') + 1);
   try {
-    for (PlySizes& ply : read_sizes(file))
-      kept.sizes.push_back(std::move(ply.sizes));
+    const std::vector<PlySizes> found = read_sizes(file);
+    if (found.size() != plies || words_of(text_of(found), kept.ended) != *words)
+      return std::nullopt;
+    for (const PlySizes& ply : found)
+      kept.sizes.push_back(ply.sizes);
   } catch (const std::runtime_error&) { // damaged: it is found anew
     return std::nullopt;
-  }
-  if (kept.sizes.size() != plies) return std::nullopt;
-  if (std::filesystem::exists(words_beside(file), none)) {
-    std::string reason;
-    const auto words = read_file(words_beside(file), most_words, reason);
-    if (!words) return std::nullopt;
-    kept.ended = *words;
   }
   return kept;
 }
@@ -126,9 +131,10 @@ void keep_sizes(const std::string& identity, const Scouted& scouted) {
   std::vector<PlySizes> plies;
   for (std::size_t p = 0; p < scouted.sizes.size(); ++p)
     plies.push_back({fmt::format("{}", p), scouted.sizes[p]});
-  std::filesystem::remove(words_beside(file), none);
-  if (!scouted.ended.empty() && !write_if_possible(words_beside(file), scouted.ended)) return;
-  if (write_if_possible(file, text_of(plies))) make_room(file.parent_path());
+  const std::string sizes = text_of(plies);
+  if (write_if_possible(words_beside(file), words_of(sizes, scouted.ended)) &&
+      write_if_possible(file, sizes))
+    make_room(file.parent_path());
 }
 
 } // namespace plyform

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
@@ -129,8 +130,14 @@ TEST(KeptSizes, AreFoundAnewWhereTheirFileIsDamaged) {
   const CacheFolder cache;
   PreparedCase first = small_hemisphere("scene"), again = small_hemisphere("scene");
   mesh_from_scene(first, 1, {.kept = true});
-  ASSERT_EQ(cache.files().size(), 1u);
-  fs::resize_file(cache.files()[0], fs::file_size(cache.files()[0]) / 2);
+  const std::vector<fs::path> files = cache.files();
+  ASSERT_EQ(files.size(), 2u); // sizes, and the sum of their bytes
+  const fs::path sizes = files[fs::file_size(files[0]) > fs::file_size(files[1]) ? 0 : 1];
+  std::fstream file(sizes, std::ios::in | std::ios::out);
+  file.seekg(200);
+  const int there = file.get();
+  file.seekp(200) << (there == '7' ? '8' : '7');
+  file.close();
   EXPECT_TRUE(mesh_from_scene(again, 1, {.kept = true, .scouts = false}).unknown);
   const SceneMesh anew = mesh_from_scene(again, 1, {.kept = true});
   EXPECT_TRUE(anew.scouted);
