@@ -31,9 +31,9 @@ struct WholeScene {
 bool moves_as_image(const Tool& a, const Tool& b, const SymmetryPlane& plane) {
   if (a.motion != b.motion) return false;
   if (a.motion == Motion::fixed) return true;
-  const Vec3 n = normal_of(plane), image = a.direction - 2.0 * a.direction.dot(n) * n;
-  return (image - b.direction).norm() < same && a.stroke == b.stroke && a.force == b.force &&
-         a.programme == b.programme && a.mass == b.mass;
+  return (mirrored_direction(plane, a.direction) - b.direction).norm() < same &&
+         a.stroke == b.stroke && a.force == b.force && a.programme == b.programme &&
+         a.mass == b.mass;
 }
 
 /// What breaks the plane at a tool; false if it is not nearly an image of any.
@@ -122,8 +122,6 @@ bool is_image(const WholeScene& scene, const Boundary& boundary, const Boundary&
       stroke_of(boundary) != stroke_of(other) || force_of(boundary) != force_of(other) ||
       !std::ranges::equal(programme_of(boundary), programme_of(other)))
     return false;
-  const Vec3 n = normal_of(plane);
-  const auto turned = [&](const Vec3& v) { return Vec3(v - 2.0 * v.dot(n) * n); };
   if (boundary.is<TensionSpring>()) {
     const auto &a = boundary.as<TensionSpring>(), &b = other.as<TensionSpring>();
     if ((mirrored(plane, a.anchor) - b.anchor).norm() > same_place || a.stiffness != b.stiffness ||
@@ -132,8 +130,8 @@ bool is_image(const WholeScene& scene, const Boundary& boundary, const Boundary&
   }
   if (boundary.is<Gripper>()) {
     const auto &a = boundary.as<Gripper>(), &b = other.as<Gripper>();
-    if ((turned(a.direction) - b.direction).norm() > same || a.stiffness != b.stiffness ||
-        a.mass != b.mass || a.guided != b.guided)
+    if ((mirrored_direction(plane, a.direction) - b.direction).norm() > same ||
+        a.stiffness != b.stiffness || a.mass != b.mass || a.guided != b.guided)
       return false;
   }
   const double stroke = stroke_of(boundary);
@@ -144,7 +142,7 @@ bool is_image(const WholeScene& scene, const Boundary& boundary, const Boundary&
       const Vec3 X(x.x(), x.y(), 0.0), image = mirrored(plane, X);
       if (!holds(other, ply, image.head<2>())) return false;
       if (prescribes(boundary) && stroke > 0.0 &&
-          (turned(prescribed_slope(boundary, X, 0.5 * stroke)) -
+          (mirrored_direction(plane, prescribed_slope(boundary, X, 0.5 * stroke)) -
            prescribed_slope(other, image, 0.5 * stroke))
                   .norm() > 1e-6)
         return false;

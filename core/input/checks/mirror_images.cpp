@@ -53,6 +53,11 @@ Vec3 mirrored(const SymmetryPlane& plane, const Vec3& x) {
   return x - 2.0 * (x - point).dot(normal) * normal;
 }
 
+Vec3 mirrored_direction(const SymmetryPlane& plane, const Vec3& v) {
+  const Vec3 normal = normal_of(plane);
+  return v - 2.0 * v.dot(normal) * normal;
+}
+
 std::vector<std::string> broken_by_fibres(const Ply& ply, const Fabric& fabric,
                                           const SymmetryPlane& plane) {
   std::vector<std::string> broken;
