@@ -194,7 +194,7 @@ public:
 private:
   /// `known`: zero before it is known.
   static const Vec3& normal_of(const EdgeSheet& sheet, std::int32_t e, Vec3& known) {
-    if (known.isZero(0.0)) known = edge_normal(sheet.edges.all[e], sheet.state.x);
+    if (known.isZero(0.0)) known = edge_normal(sheet.edges, sheet.edges.all[e], sheet.state.x);
     return known;
   }
 

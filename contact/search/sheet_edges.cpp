@@ -36,6 +36,17 @@ std::vector<SheetEdge> list_edges(std::span<const Triangle> triangles) {
   return edges;
 }
 
+/// Gives free edges that lie on a plane the mirror image of their triangle.
+void close_at(std::span<const NodesOnPlane> planes, std::vector<SheetEdge>& edges) {
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const auto on = [&](std::int32_t n) {
+      return std::binary_search(planes[k].nodes.begin(), planes[k].nodes.end(), n);
+    };
+    for (SheetEdge& e : edges)
+      if (e.is_free() && on(e.a) && on(e.b)) (e.c == no_face ? e.c : e.d) = mirror_of(k);
+  }
+}
+
 /// The first edge of two nodes.
 std::size_t number_of(const std::vector<SheetEdge>& edges, std::int32_t i, std::int32_t j) {
   const std::pair<std::int32_t, std::int32_t> wanted = std::minmax(i, j);
@@ -92,8 +103,26 @@ faces_across(const std::vector<std::array<std::int32_t, 3>>& edge, std::size_t e
 
 } // namespace
 
-SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0) {
+std::array<Vec3, 2> SheetEdges::third_nodes(const SheetEdge& e, std::span<const Vec3> x) const {
+  const auto beyond = [&](std::int32_t plane, std::int32_t other) {
+    const Vec3& normal = plane_normals[static_cast<std::size_t>(mirror_of(0) - plane)];
+    const Vec3& third = x[at(other)];
+    return Vec3(third - 2.0 * (third - x[at(e.a)]).dot(normal) * normal);
+  };
+  std::array<Vec3, 2> found = {Vec3::Zero(), Vec3::Zero()};
+  if (e.c >= 0) found[0] = x[at(e.c)];
+  if (e.d >= 0) found[1] = x[at(e.d)];
+  if (e.c < no_face) found[0] = beyond(e.c, e.d);
+  if (e.d < no_face) found[1] = beyond(e.d, e.c);
+  return found;
+}
+
+SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0,
+                       std::span<const NodesOnPlane> planes) {
   SheetEdges edges{list_edges(triangles), {}, {}, {}, {}, {}};
+  close_at(planes, edges.all);
+  for (const NodesOnPlane& plane : planes)
+    edges.plane_normals.push_back(plane.normal);
   edges.all.shrink_to_fit();
   edges.patch.reserve(edges.all.size());
   const Cells cells = cells_of(edges.all.size(), x0);

@@ -19,12 +19,17 @@
 namespace plyform {
 
 /// An edge of a sheet: its nodes, a < b, and the third nodes of its triangles: c of that in which b
-/// follows a counter-clockwise, d of the other; -1 if there is none.
+/// follows a counter-clockwise, d of the other; no_face if there is none. On plane k of symmetry
+/// the mirror image of its one triangle is on the other side, and its third node is mirror_of(k).
 struct SheetEdge {
   std::int32_t a, b, c, d;
   /// Whether it is a free edge, with a triangle on one side only.
-  bool is_free() const { return c < 0 || d < 0; }
+  bool is_free() const { return c == no_face || d == no_face; }
 };
+
+constexpr std::int32_t mirror_of(std::size_t plane) {
+  return -2 - static_cast<std::int32_t>(plane);
+}
 
 /// All edges of a sheet.
 struct SheetEdges {
@@ -38,11 +43,22 @@ struct SheetEdges {
   /// Of each triangle, that across the edge opposite to each corner; no_face or several_faces of
   /// contact/face_across.hpp.
   std::vector<std::array<std::int32_t, 3>> faces_across;
+  std::vector<Vec3> plane_normals = {}; ///< of the planes of symmetry, unit vectors
+
+  /// Where the third nodes of an edge's triangles are, mm; of a free edge one is of no use.
+  std::array<Vec3, 2> third_nodes(const SheetEdge& edge, std::span<const Vec3> x) const;
+};
+
+/// The nodes of a sheet that lie on a plane of symmetry.
+struct NodesOnPlane {
+  Vec3 normal = Vec3::Zero();      ///< of the plane, unit vector
+  std::vector<std::int32_t> nodes; ///< ascending
 };
 
 /// The edges of these triangles, with patches by square cells in the plane of the two largest
 /// extents of the nodes, x0 (mm).
-SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0);
+SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0,
+                       std::span<const NodesOnPlane> planes = {});
 
 /// Distances (mm) of the nodes, at x, from the nearest free edge; infinite without any.
 std::vector<double> rim_distances(const SheetEdges& edges, std::span<const Vec3> x);

@@ -15,9 +15,11 @@ struct EdgeFold {
   double fold, per_mm;
 };
 
-EdgeFold fold_of(const SheetEdge& e, std::span<const Vec3> x) {
+EdgeFold fold_of(const SheetEdges& edges, const SheetEdge& e, std::span<const Vec3> x) {
   const Vec3 &a = x[e.a], along = x[e.b] - a;
-  const Vec3 one = along.cross(x[e.c] - a), other = (x[e.d] - a).cross(along);
+  const bool inside = e.c >= 0 && e.d >= 0; // nearly all
+  const auto [c, d] = inside ? std::array<Vec3, 2>{x[e.c], x[e.d]} : edges.third_nodes(e, x);
+  const Vec3 one = along.cross(c - a), other = (d - a).cross(along);
   const double length = along.norm(), area1 = one.norm(), area2 = other.norm(); // twice the areas
   const double sine = one.cross(other).dot(along) / (area1 * area2 * length);
   const double fold = one.dot(other) < 0.0 ? std::copysign(1.0, sine) : sine;
@@ -53,11 +55,12 @@ bool update_room(const SheetEdges& edges, std::size_t patch, const Fold& fold, d
 
 } // namespace
 
-Vec3 edge_normal(const SheetEdge& e, std::span<const Vec3> x) {
+Vec3 edge_normal(const SheetEdges& edges, const SheetEdge& e, std::span<const Vec3> x) {
   const Vec3 &a = x[e.a], along = x[e.b] - a;
+  const auto [c, d] = edges.third_nodes(e, x);
   Vec3 sum = Vec3::Zero();
-  if (e.c >= 0) sum += along.cross(x[e.c] - a).normalized();
-  if (e.d >= 0) sum += (x[e.d] - a).cross(along).normalized();
+  if (e.c != no_face) sum += along.cross(c - a).normalized();
+  if (e.d != no_face) sum += (d - a).cross(along).normalized();
   return sum.normalized();
 }
 
@@ -68,7 +71,7 @@ void find_ridges(const SheetEdges& edges, std::span<const Vec3> x, double limit,
   std::vector<char> at_node(x.size(), no_ridge); // sides of the sharp ridges there
   for (std::size_t i = 0; i < edges.all.size(); ++i) {
     const SheetEdge& e = edges.all[i];
-    if (!e.is_free()) folds[i] = fold_of(e, x);
+    if (!e.is_free()) folds[i] = fold_of(edges, e, x);
     const double fold = folds[i].fold;
     ridges.sides[i] = e.is_free() ? char{ridge_both} : sides_beyond(fold, listed_share * limit);
     const char sharp = sides_beyond(fold, sharp_share * limit);
@@ -87,7 +90,7 @@ void find_ridges(const SheetEdges& edges, std::span<const Vec3> x, double limit,
 bool follow_ridges(const SheetEdges& edges, std::span<const Vec3> x,
                    std::span<const Box3> patch_motion, double limit, SheetRidges& ridges) {
   bool hold = true;
-  const auto fold = [&](std::int32_t i) { return fold_of(edges.all[i], x); };
+  const auto fold = [&](std::int32_t i) { return fold_of(edges, edges.all[i], x); };
   for (std::size_t patch = 0; patch < ridges.room.size(); ++patch) {
     float& room = ridges.room[patch];
     room = rounded_down(room - patch_motion[patch].diagonal().norm());

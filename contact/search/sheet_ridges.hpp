@@ -28,7 +28,7 @@ struct SheetRidges {
 };
 
 /// The unit normal of an edge: the mean of those of its triangles. x: mm, positions of the nodes.
-Vec3 edge_normal(const SheetEdge& edge, std::span<const Vec3> x);
+Vec3 edge_normal(const SheetEdges& edges, const SheetEdge& edge, std::span<const Vec3> x);
 
 /// Finds all ridges anew: edges with a fold of more than a tenth of `limit`, and those round the
 /// ends of a fold of more than a quarter of it, as a sheet that is drawn over a tool's edge is

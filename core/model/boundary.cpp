@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/model/boundary.hpp"
 
+#include "core/model/mirror.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -82,7 +84,7 @@ bool kind_holds(const HingedFrame& frame, const Vec2& X) {
   return false;
 }
 bool kind_holds(const SymmetryPlane& plane, const Vec2& X) {
-  return std::abs((X - plane.point).dot(plane.normal)) <= on_line;
+  return lies_on(plane, X);
 }
 
 template <class Kind>
@@ -123,6 +125,11 @@ Vec3 slope(const HingedFrame& frame, const Vec3& X, double d) {
 }
 
 } // namespace
+
+bool hold_by_mesh(const std::vector<Boundary>& boundaries) {
+  return std::any_of(boundaries.begin(), boundaries.end(),
+                     [](const Boundary& b) { return !b.is<SymmetryPlane>(); });
+}
 
 double stroke_of(const Boundary& b) {
   const auto stroke = [](const auto& kind) {

@@ -35,6 +35,10 @@ inline bool prescribes(const Boundary& b) {
   return !b.is<TensionSpring>() && !b.is<Gripper>();
 }
 
+/// Whether which nodes boundaries hold depends on the mesh: not that of planes of symmetry, at
+/// which blanks end.
+bool hold_by_mesh(const std::vector<Boundary>& boundaries);
+
 /// mm, of grips, frames and the drives of grippers; else 0.
 double stroke_of(const Boundary& boundary);
 

@@ -86,6 +86,7 @@ struct HingedFrame {
 /// A vertical plane.
 struct SymmetryPlane {
   Vec2 point = Vec2::Zero(), normal = Vec2::UnitX(); ///< mm; unit vector
+  bool operator==(const SymmetryPlane&) const = default;
 };
 
 /// A tension spring from its nodes to an anchor.
@@ -206,6 +207,20 @@ struct ContactOptions {
 struct AccuracyOptions {
   double shear_error = 0.0; ///< rad, rms; 0: not requested, solver options and element sizes apply
   bool verify = false;      ///< runs siblings after the run: core/verification/verify.hpp
+  bool instant = false;     ///< forms each ply alone: core/setup/instant.hpp
+};
+
+/// Which planes of symmetry of a scene leave only a part of it to be modelled.
+enum class Symmetry {
+  none,  ///< none
+  scene, ///< those that hold
+  alike, ///< those, too, that hold if families that differ by less than 5 % are taken as one
+};
+
+/// A plane at which a scene was cut: the side to which its normal points is modelled.
+struct PartPlane {
+  SymmetryPlane plane;
+  std::vector<int> tools, boundaries; ///< of each, its mirror image
 };
 
 struct Case {
@@ -223,6 +238,11 @@ struct Case {
   ProcessOptions process;
   ContactOptions contact;
   AccuracyOptions accuracy;
+  Symmetry symmetry = Symmetry::none;
+  /// mm, of each tool: by how much farther than half its thickness a ply is kept from it, as by
+  /// other plies between (core/setup/instant.hpp); empty: by nothing
+  std::vector<double> tool_clearance;
+  std::vector<PartPlane> part_at; ///< at right angles to each other; what is shown is the whole
 
   /// s, that the stroke takes in the process, or what is simulated of it if that is not said
   double process_stroke_time() const { return process.duration.value_or(solver.duration); }

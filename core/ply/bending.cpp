@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace plyform {
@@ -14,9 +15,17 @@ namespace {
 
 /// Bound of omega^2, 1/s^2, of nodes that move along one common direction, with the curvatures of
 /// that motion and the stiffnesses (N mm) of(stencil); Lanczos' iteration. root: of the masses,
-/// t^1/2.
+/// t^1/2. across: the planes of symmetry, as bits, that the direction is normal to, so that images
+/// there move the other way.
 template <class Of>
-double largest_omega2(const Bending& b, const Eigen::VectorXd& root, const Of& of) {
+double largest_omega2(const Bending& b, const Eigen::VectorXd& root, unsigned across,
+                      const Of& of) {
+  const auto sign = [&](std::int32_t n) {
+    const auto i = static_cast<std::size_t>(n);
+    if (i < b.area.size()) return 1.0;
+    const auto bits = static_cast<unsigned>(b.images[i - b.area.size()].mirror) & across;
+    return std::popcount(bits) % 2 == 1 ? -1.0 : 1.0;
+  };
   const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
     const Eigen::VectorXd y = v.cwiseQuotient(root);
     Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
@@ -24,18 +33,22 @@ double largest_omega2(const Bending& b, const Eigen::VectorXd& root, const Of& o
       const auto begin = static_cast<std::size_t>(b.begin[e]),
                  end = static_cast<std::size_t>(b.begin[e + 1]);
       std::array<double, 3> kappa{};
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t i = begin; i < end; ++i) {
+        const double moved = sign(b.node[i]) * y[static_cast<Eigen::Index>(b.of_ply(b.node[i]))];
         for (std::size_t k = 0; k < 3; ++k)
-          kappa[k] += b.b[i][k] * y[b.node[i]];
+          kappa[k] += b.b[i][k] * moved;
+      }
       const Eigen::Matrix3d d = of(e);
       std::array<double, 3> moment{};
       for (std::size_t k = 0; k < 3; ++k)
         moment[k] = d(static_cast<Eigen::Index>(k), 0) * kappa[0] +
                     d(static_cast<Eigen::Index>(k), 1) * kappa[1] +
                     d(static_cast<Eigen::Index>(k), 2) * kappa[2];
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t i = begin; i < end; ++i) {
+        double& on = force[static_cast<Eigen::Index>(b.of_ply(b.node[i]))];
         for (std::size_t k = 0; k < 3; ++k)
-          force[b.node[i]] += b.area[e] * b.b[i][k] * moment[k];
+          on += sign(b.node[i]) * (b.area[e] * b.b[i][k] * moment[k]);
+      }
     }
     return Eigen::VectorXd(force.cwiseQuotient(root));
   };
@@ -74,10 +87,10 @@ Eigen::Matrix3d in_plane_stiffness(const Bending& b, std::size_t node) {
 
 Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& triangles,
                      const BendingLaw& law, double axis1, double axis2,
-                     std::span<const double> node_mass) {
+                     std::span<const double> node_mass, const std::vector<SymmetryPlane>& planes) {
   Bending b;
   b.law = law;
-  fit_stencils(b, x, triangles, axis1, axis2);
+  fit_stencils(b, x, triangles, axis1, axis2, planes);
   b.omega2 = bending_omega2(b, node_mass);
   return b;
 }
@@ -90,10 +103,12 @@ double bending_omega2(const Bending& b, std::span<const double> node_mass) {
                                    node_mass.data(), static_cast<Eigen::Index>(node_mass.size()))
                                    .cwiseSqrt();
   const Eigen::Matrix3d across = b.law.largest_stiffness();
-  double found = largest_omega2(b, root, [&](std::size_t) { return across; });
-  if (!b.in_plane.empty())
+  double found = largest_omega2(b, root, 0, [&](std::size_t) { return across; });
+  // in the plane along that of symmetry and normal to it, with two planes normal to either
+  const unsigned directions = b.mirrors.empty() ? 1 : 2, first = b.mirrors.size() > 2 ? 1 : 0;
+  for (unsigned k = first; !b.in_plane.empty() && k < first + directions; ++k)
     found = std::max(
-        found, largest_omega2(b, root, [&](std::size_t e) { return in_plane_stiffness(b, e); }));
+        found, largest_omega2(b, root, k, [&](std::size_t e) { return in_plane_stiffness(b, e); }));
   return found;
 }
 
@@ -106,7 +121,7 @@ std::vector<double> stencil_omega2(const Bending& b, std::span<const double> nod
       for (auto i = static_cast<std::size_t>(b.begin[n]);
            i < static_cast<std::size_t>(b.begin[n + 1]); ++i) {
         const double constant = of[0] * b.b[i][0] + of[1] * b.b[i][1] + of[2] * b.b[i][2];
-        sum += constant * constant / node_mass[b.node[i]];
+        sum += constant * constant / node_mass[b.of_ply(b.node[i])];
       }
       return sum;
     };

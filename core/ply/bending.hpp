@@ -40,6 +40,11 @@
 // yarn does not enter (T): a straight yarn that is stretched unevenly has no moment. As n and c are
 // orthogonal, (K) and (T) measure independent parts of s.
 //
+// At a plane of symmetry stencils reach beyond the part that is modelled: their nodes there are
+// mirror images of nodes of the part (core/ply/mirrored_sheet.hpp), and what acts on an image acts,
+// mirrored, on its node. A node on the plane has its share of A0, a half or a quarter, so that all
+// sums are those of the part.
+//
 // Purpose of (G): a membrane whose energy depends on strains only is a first-gradient continuum;
 // where shear jumps its yarns have kinks without energy, and a compressed family zigzags at the
 // size of the mesh. (G) is a second-gradient term, as in the pantographic sheets of dell'Isola and
@@ -63,6 +68,7 @@
 
 #include "core/mesh/mesh_blank.hpp"
 #include "core/model/fabric.hpp"
+#include "core/ply/mirrored_sheet.hpp"
 
 #include <span>
 #include <vector>
@@ -72,9 +78,10 @@ namespace plyform {
 /// Bending of one ply of n nodes, with one stencil (patch of nodes) per node.
 struct Bending {
   BendingLaw law;
-  std::vector<double> area;             ///< n, A0: a third of the triangles around
-  std::vector<std::int32_t> begin;      ///< n + 1, into the arrays of stencil nodes
-  std::vector<std::int32_t> node;       ///< per stencil: its centre node, then the others
+  std::vector<double> area;        ///< n, A0: a third of the triangles around
+  std::vector<std::int32_t> begin; ///< n + 1, into the arrays of stencil nodes
+  /// Per stencil: its centre node, then the others; those from n on are `images`.
+  std::vector<std::int32_t> node;
   std::vector<std::array<double, 3>> b; ///< B_11, B_22, B_12 of each stencil node
   std::vector<std::array<double, 2>> a; ///< A_1, A_2 likewise; empty without in-plane bending
   /// D_g (N mm) of the families at the first node, at the second ... where (T) is defined, else 0;
@@ -83,6 +90,14 @@ struct Bending {
   std::vector<std::int32_t> fan_begin; ///< n + 1, into fan
   std::vector<Triangle> fan; ///< triangles around each node; corners: indices within the stencil
   double omega2 = 0.0; ///< 1/s^2, bound of the largest eigenvalue of M^-1 K in the undeformed shape
+  std::vector<ImageNode> images; ///< nodes beyond planes of symmetry
+  std::vector<Mirror> mirrors;   ///< of `images`; empty without planes
+
+  /// The node of the ply that a stencil node is, or is an image of.
+  std::size_t of_ply(std::int32_t stencil_node) const {
+    const auto n = static_cast<std::size_t>(stencil_node);
+    return n < area.size() ? n : static_cast<std::size_t>(images[n - area.size()].node);
+  }
 };
 
 /// Normal and derivatives of the position along the axes at one node.
@@ -114,10 +129,11 @@ double bending_energy(const BendingLaw& law, std::span<const double> in_plane,
                       const StencilShape& s);
 
 /// Fits all stencils (core/ply/bending_fit.hpp) and bounds omega2. x: undeformed positions, mm;
-/// node_mass: t, one per node; axis1, axis2: material axes, rad from x.
+/// node_mass: t, one per node; axis1, axis2: material axes, rad from x; planes: of symmetry.
 Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& triangles,
                      const BendingLaw& law, double axis1, double axis2,
-                     std::span<const double> node_mass);
+                     std::span<const double> node_mass,
+                     const std::vector<SymmetryPlane>& planes = {});
 
 /// Bound of the largest eigenvalue of M^-1 K, 1/s^2, of (E) + (G) in the undeformed shape, by
 /// Lanczos' iteration. node_mass: t, one per node.

@@ -104,27 +104,34 @@ void append_stencil(Bending& b, const UndeformedSheet& sheet, int node, const Cu
 } // namespace
 
 void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangle>& triangles,
-                  double axis1, double axis2) {
-  UndeformedSheet sheet{{}, triangles, std::vector<std::vector<int>>(x.size()), {}, axis2 - axis1};
+                  double axis1, double axis2, const std::vector<SymmetryPlane>& planes) {
+  MirroredSheet whole = mirrored_sheet(x, triangles, planes);
+  UndeformedSheet sheet{{},
+                        whole.triangles,
+                        std::vector<std::vector<int>>(whole.x.size()),
+                        std::vector<double>(whole.x.size(), 0.0),
+                        axis2 - axis1};
   const Vec2 e1(std::cos(axis1), std::sin(axis1)), e2(-e1.y(), e1.x());
-  for (const Vec2& p : x)
+  for (const Vec2& p : whole.x)
     sheet.x.emplace_back(p.dot(e1), p.dot(e2));
-  sheet.area.assign(x.size(), 0.0);
-  for (std::size_t e = 0; e < triangles.size(); ++e) {
-    const Triangle& t = triangles[e];
-    const Vec2 g1 = x[t[1]] - x[t[0]];
-    const Vec2 g2 = x[t[2]] - x[t[0]];
+  b.area.assign(x.size(), 0.0);
+  for (std::size_t e = 0; e < whole.triangles.size(); ++e) {
+    const Triangle& t = whole.triangles[e];
+    const Vec2 g1 = whole.x[t[1]] - whole.x[t[0]];
+    const Vec2 g2 = whole.x[t[2]] - whole.x[t[0]];
     for (const int n : t) {
       sheet.around[n].push_back(static_cast<int>(e));
-      sheet.area[n] += (g1.x() * g2.y() - g1.y() * g2.x()) / 6.0;
+      const double third = (g1.x() * g2.y() - g1.y() * g2.x()) / 6.0;
+      sheet.area[n] += third;
+      if (e < triangles.size()) b.area[n] += third;
     }
   }
   b.begin = b.fan_begin = {0};
-  b.area = sheet.area;
   if (b.law.in_plane()) b.in_plane.assign(x.size() * b.law.families.size(), 0.0);
   const std::vector<CurvatureRow> rows = curvature_rows(sheet, b.law);
   for (std::size_t n = 0; n < x.size(); ++n)
     append_stencil(b, sheet, static_cast<int>(n), rows[n]);
+  b.images = std::move(whole.images), b.mirrors = std::move(whole.mirrors);
   b.begin.shrink_to_fit(), b.node.shrink_to_fit(), b.b.shrink_to_fit(), b.a.shrink_to_fit();
   b.fan_begin.shrink_to_fit(), b.fan.shrink_to_fit();
 }

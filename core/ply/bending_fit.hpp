@@ -8,9 +8,10 @@
 namespace plyform {
 
 /// Fills the stencils of `b` (begin, node, b, a, fan), b.area and, by b.law, b.in_plane. x:
-/// undeformed positions, mm; axis1, axis2: material axes, rad from x. A stencil holds the nodes of
-/// the triangles around its node and, where cells are not of parallelograms, those next to them.
+/// undeformed positions, mm; axis1, axis2: material axes, rad from x; planes: of symmetry. A
+/// stencil holds the nodes of the triangles around its node and, where cells are not of
+/// parallelograms, those next to them.
 void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangle>& triangles,
-                  double axis1, double axis2);
+                  double axis1, double axis2, const std::vector<SymmetryPlane>& planes);
 
 } // namespace plyform

@@ -67,7 +67,8 @@ class BendingBlockMaker {
 public:
   BendingBlockMaker(const Bending& bending, BendingSimd& lanes_,
                     std::vector<SimdNumbers>& constants_)
-      : b(bending), out(lanes_), constants(constants_), local(bending.area.size(), -1) {}
+      : b(bending), out(lanes_), constants(constants_),
+        local(bending.area.size() + bending.images.size(), -1) {}
 
   void add(int stencil) {
     const auto p = static_cast<std::size_t>(stencil);
@@ -92,8 +93,15 @@ public:
     block.first_slot = out.slots.size() / simd_width;
     add_groups();
     block.groups = static_cast<int>(out.stencils.size()) - block.first_group;
+    block.first_image = static_cast<int>(out.images.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto n = static_cast<std::size_t>(list[i]);
+      if (n >= b.area.size())
+        out.images.push_back({static_cast<std::int32_t>(i), b.images[n - b.area.size()].mirror});
+      out.nodes.push_back(static_cast<std::int32_t>(b.of_ply(list[i])));
+    }
+    block.images = static_cast<int>(out.images.size()) - block.first_image;
     out.blocks.push_back(block);
-    out.nodes.insert(out.nodes.end(), list.begin(), list.end());
     for (const int n : list)
       local[n] = -1;
     list.clear(), stencils.clear();
@@ -239,12 +247,36 @@ std::size_t in_plane_begin(const BendingSimd& l, int group) {
   return l.in_plane ? at(group) * l.law.families.size() : 0;
 }
 
-/// The shape of the stencil in one SIMD lane. slot: number of the group's first slot.
-StencilShape shape_in_lane(const BendingSimd& l, const BendingBlock& block, const SimdStencils& p,
-                           std::size_t slot, std::size_t lane, std::span<const Vec3> x) {
-  const auto at = [&](std::uint16_t place) -> const Vec3& {
-    return x[l.nodes[static_cast<std::size_t>(block.first_node + place / 32)]];
-  };
+KernelMirror kernel_mirror(const Mirror& mirror) {
+  KernelMirror k;
+  for (int i = 0; i < 3; ++i) {
+    k.shift[i] = mirror.shift[i];
+    for (int j = 0; j < 3; ++j)
+      k.turn[3 * i + j] = mirror.turn(i, j);
+  }
+  return k;
+}
+
+/// The places (mm) of a block's nodes.
+std::vector<Vec3> places_of(const BendingSimd& l, const BendingBlock& block,
+                            std::span<const Vec3> x) {
+  std::vector<Vec3> places;
+  for (int i = 0; i < block.nodes; ++i)
+    places.push_back(x[at(l.nodes[at(block.first_node + i)])]);
+  for (int i = block.first_image; i < block.first_image + block.images; ++i) {
+    const KernelMirror& m = l.mirrors[at(l.images[at(i)].mirror)];
+    Vec3& place = places[at(l.images[at(i)].entry)];
+    place = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(m.turn) * place +
+            Eigen::Map<const Vec3>(m.shift);
+  }
+  return places;
+}
+
+/// The shape of the stencil in one SIMD lane. slot: number of the group's first slot; places: of
+/// the block's nodes.
+StencilShape shape_in_lane(const BendingSimd& l, const SimdStencils& p, std::size_t slot,
+                           std::size_t lane, const std::vector<Vec3>& places) {
+  const auto at = [&](std::uint16_t place) -> const Vec3& { return places[place / 32]; };
   const auto difference = [&](int i) {
     const std::size_t of = (slot + static_cast<std::size_t>(i)) * simd_width + lane;
     return Vec3(at(l.slots[of]) - at(p.own[lane]));
@@ -277,6 +309,8 @@ BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
   out.law = b.law;
   out.in_plane = !b.in_plane.empty();
   out.omega2 = b.omega2;
+  for (const Mirror& mirror : b.mirrors)
+    out.mirrors.push_back(kernel_mirror(mirror));
   Box3 box;
   for (const Vec3& p : x)
     box.extend(p);
@@ -311,7 +345,10 @@ void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block,
                                   l.constants->data() + of.first_slot * slot_numbers(l),
                                   l.slots.data() + of.first_slot * simd_width,
                                   l.of_yarns.data() + in_plane_begin(l, of.first_group),
-                                  l.force.data() + of.first_node};
+                                  l.force.data() + of.first_node,
+                                  l.images.data() + of.first_image,
+                                  of.images,
+                                  l.mirrors.data()};
   const auto run = fastest(bending_kernel_generic, bending_kernel_avx2, bending_kernel_avx512);
   run(kernel, law, x.data()->data());
 }
@@ -321,14 +358,15 @@ double bending_energy(const BendingSimd& l, std::span<const Vec3> x) {
   std::vector<double> in_plane(l.in_plane ? l.law.families.size() : 0);
   for (const BendingBlock& block : l.blocks) {
     std::size_t slot = block.first_slot;
+    const std::vector<Vec3> places = places_of(l, block, x);
     for (int g = block.first_group; g < block.first_group + block.groups; ++g) {
       const SimdStencils& p = l.stencils[static_cast<std::size_t>(g)];
       for (std::size_t lane = 0; lane < simd_width; ++lane) {
         if (!(p.area[lane] > 0.0)) continue;
         for (std::size_t a = 0; a < in_plane.size(); ++a)
           in_plane[a] = l.of_yarns[in_plane_begin(l, g) + a].of[lane];
-        sum += p.area[lane] *
-               bending_energy(l.law, in_plane, shape_in_lane(l, block, p, slot, lane, x));
+        sum +=
+            p.area[lane] * bending_energy(l.law, in_plane, shape_in_lane(l, p, slot, lane, places));
       }
       slot += static_cast<std::size_t>(p.slots);
     }

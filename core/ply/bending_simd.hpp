@@ -21,6 +21,7 @@ struct BendingBlock {
   int first_node = 0, nodes = 0;
   int first_group = 0, groups = 0;
   std::size_t first_slot = 0;
+  int first_image = 0, images = 0;
 };
 
 struct BendingSimd : BlockForces {
@@ -32,6 +33,8 @@ struct BendingSimd : BlockForces {
   std::vector<SimdNumbers> of_yarns;      ///< of `stencils`: BendingKernelBlock::in_plane
   SharedConstants<SimdNumbers> constants; ///< of `slots`, as in BendingKernelBlock
   std::vector<std::uint16_t> slots;       ///< of `stencils`, four nodes each
+  std::vector<BlockImage> images;         ///< of all blocks
+  std::vector<KernelMirror> mirrors;
 };
 
 /// x: undeformed positions, used only to put neighbouring nodes into the same block. Throws

@@ -274,10 +274,26 @@ PLYFORM_INLINE SimdGroups groups_at(const BendingKernelBlock& block, int familie
   return g;
 }
 
+/// Takes vectors at the images of a block, four numbers each, to the other side of their planes;
+/// with_shift: places, mm, else directions.
+PLYFORM_INLINE void mirror_images(const BendingKernelBlock& block, bool with_shift, double* of) {
+  for (int i = 0; i < block.image_count; ++i) {
+    const KernelMirror& mirror = block.mirrors[block.images[i].mirror];
+    double* v = of + 4 * block.images[i].entry;
+    double out[3];
+    for (int k = 0; k < 3; ++k)
+      out[k] = mirror.turn[3 * k] * v[0] + mirror.turn[3 * k + 1] * v[1] +
+               mirror.turn[3 * k + 2] * v[2] + (with_shift ? mirror.shift[k] : 0.0);
+    for (int k = 0; k < 3; ++k)
+      v[k] = out[k];
+  }
+}
+
 template <class Of, bool in_plane, bool tables>
 PLYFORM_INLINE void block_forces(const BendingKernelBlock& block, const BendingKernelLaw& law,
                                  const double* x, double* place) {
   gather_places(block.nodes, block.node_count, x, place);
+  mirror_images(block, true, place);
   double* force = &block.force->x;
   for (int i = 0; i < block.node_count; ++i)
     store(force + 4 * i, Double4{});
@@ -293,6 +309,7 @@ PLYFORM_INLINE void block_forces(const BendingKernelBlock& block, const BendingK
     constants += g.count * slot_numbers<in_plane> * g.slot_count;
     slots += g.count * simd_width * g.slot_count;
   }
+  mirror_images(block, false, force);
 }
 
 PLYFORM_INLINE void bending_kernel(const BendingKernelBlock& block, const BendingKernelLaw& law,

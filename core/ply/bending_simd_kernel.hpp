@@ -47,6 +47,17 @@ struct BendingKernelLaw {
   void (*moment)(const BendingKernelLaw&, int family, const double* kappa, double* m);
 };
 
+/// A node of a block that is the mirror image of the ply's node.
+struct BlockImage {
+  std::int32_t entry;  ///< of the block's nodes
+  std::int32_t mirror; ///< number of its mirror
+};
+
+/// x goes over to turn x + shift; mm.
+struct KernelMirror {
+  double turn[9], shift[3]; ///< turn: by rows, its own inverse
+};
+
 /// Stencils that share a list of nodes. All arrays are those of the block.
 struct BendingKernelBlock {
   const std::int32_t* nodes; ///< node numbers in the ply
@@ -58,6 +69,9 @@ struct BendingKernelBlock {
   /// With in_plane: D_g (N mm) of the families at the nodes of the first group, of the second ...
   const SimdNumbers* in_plane;
   SimdForce* force; ///< N, one per node of the block
+  const BlockImage* images = nullptr;
+  int image_count = 0;
+  const KernelMirror* mirrors = nullptr;
 };
 
 /// (F) + (I), N, of a block's stencils, summed in block.force. x: mm, 3 numbers per node of the

@@ -119,7 +119,8 @@ struct PushedTool {
 
 struct Summary {
   std::string title, version;
-  /// done; doubtful: it ended, but there are reasons to doubt the result; interrupted; stopped
+  /// done; doubtful: it ended, but there are reasons to doubt the result; instant: each ply was
+  /// formed alone (core/setup/instant.hpp); interrupted; stopped
   std::string status = "done";
   std::string message; ///< why it was stopped, or is doubtful; else empty
   double wall_time_s = 0;
@@ -156,7 +157,7 @@ inline std::vector<std::string> advice_of(const Summary& summary) {
 
 /// Whether a run with this status reached its end time.
 inline bool ended(std::string_view status) {
-  return status == "done" || status == "doubtful";
+  return status == "done" || status == "doubtful" || status == "instant";
 }
 
 } // namespace plyform

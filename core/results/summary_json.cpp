@@ -250,12 +250,22 @@ Json asked_object(const AskedAccuracy& a) {
   return object;
 }
 
+Json whole_object(const WholeRun& w) {
+  return {{"moved_mm", rounded(w.moved_mm)},
+          {"shear_deg", rounded(w.shear_deg)},
+          {"ply", w.ply},
+          {"wrinkle_mm", rounded(w.wrinkle_mm)},
+          {"shown_wrinkle_mm", rounded(w.shown_wrinkle_mm)},
+          {"breaks_symmetry", w.breaks}};
+}
+
 Json verification_object(const Verification& v) {
   Json object = {{"cost", rounded(v.cost)},
                  {"work", rounded(v.work)},
                  {"figures", list_of(v.figures, figure_object)},
                  {"shear_of_all_plies", figure_object(v.shear)}};
   if (v.asked) object["asked"] = asked_object(*v.asked);
+  if (v.whole) object["whole"] = whole_object(*v.whole);
   object["left_out"] = v.left_out;
   object["partings"] = list_of(v.partings, parting_object);
   return object;

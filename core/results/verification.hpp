@@ -70,6 +70,16 @@ struct AskedAccuracy {
   bool kept() const { return measured_deg <= wanted_deg; } // false for NaN
 };
 
+/// The whole of a scene of which a part was modelled, run once from off its symmetry.
+struct WholeRun {
+  double moved_mm = 0.0;  ///< of its first moving tool, off the symmetry
+  double shear_deg = 0.0; ///< rms difference of its shear angles to those shown
+  /// mm, of the ply whose wrinkles are higher than those shown by most
+  std::string ply;
+  double wrinkle_mm = 0.0, shown_wrinkle_mm = 0.0;
+  bool breaks = false; ///< whether waves break the symmetry
+};
+
 struct Verification {
   std::vector<VerifiedFigure> figures; ///< empty: not verified
   VerifiedFigure shear;                ///< of all plies together
@@ -77,6 +87,7 @@ struct Verification {
   double cost = 0.0;                   ///< time of the siblings over that of the run
   double work = 0.0;                   ///< the same by triangles times steps, whatever else runs
   std::vector<std::string> left_out;   ///< causes without a sibling, and why, a sentence each
+  std::optional<WholeRun> whole;       ///< of a part
   std::vector<Parting> partings;       ///< where chance is more than all else in a band
 };
 

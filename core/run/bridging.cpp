@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/bridging.hpp"
 
-#include "base/node_normals.hpp"
 #include "core/model/motion.hpp"
 #include "core/results/way_to_tool.hpp"
 #include "core/run/triangle_grid.hpp"
@@ -21,7 +20,7 @@ constexpr double of_its_own = 0.5;  // of G: (2)
 constexpr double no_load = 1e-6;    // of the loads on a stack: their sum is rounding
 
 std::vector<Vec3> unit_normals(const PlyBody& ply) {
-  std::vector<Vec3> normals = area_normals(ply.x, ply.membrane.triangles);
+  std::vector<Vec3> normals = normals_at_nodes(ply);
   for (Vec3& n : normals)
     n.stableNormalize();
   return normals;

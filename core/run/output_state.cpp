@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/output_state.hpp"
 
-#include "base/node_normals.hpp"
 #include "core/model/motion.hpp"
 #include "core/results/wrinkles.hpp"
 #include "core/run/bridging.hpp"
@@ -173,13 +172,9 @@ PlyFrame make_ply_frame(const Scene& scene, const BridgingSearch& bridging, int 
   f.reaction.resize(ply.pull.empty() ? f.reaction.size() : ply.pull.size(), Vec3::Zero());
   for (std::size_t n = 0; n < ply.pull.size(); ++n)
     f.reaction[n] += ply.pull[n];
-  std::vector<const ToolBody*> tools;
-  for (const ToolState& tool : scene.tools)
-    tools.push_back(&tool.body);
-  bridging.fill(at(index), f); // before wrinkles, which are none there
+  bridging.fill(at(index), f);
   f.load_pressure = pressure_on(scene.data, at(index), scene.time)
                         .value_or(std::numeric_limits<double>::quiet_NaN());
-  f.wrinkle_height = wrinkles_of(f, tools, least_wrinkle).at_nodes;
   return f;
 }
 
@@ -217,8 +212,7 @@ ToolFrame make_tool_frame(const ToolState& tool, const TriMesh& surface) {
 std::vector<double> contact_pressure(const Scene& scene, int index) {
   const auto p = static_cast<std::size_t>(index);
   const PlyBody& ply = scene.plies[p];
-  SideForces sides{
-      area_normals(ply.x, ply.membrane.triangles), std::vector<double>(ply.x.size(), 0.0), {}};
+  SideForces sides{normals_at_nodes(ply), std::vector<double>(ply.x.size(), 0.0), {}};
   sides.below = sides.above;
   for (const ToolState& tool : scene.tools)
     for (const ToolPlyPoint& c : tool.contacts[p].points)
@@ -287,7 +281,18 @@ Frame make_frame(const Scene& scene, const std::vector<TriMesh>& surfaces, const
       f.boundaries.push_back(
           {scene.data.boundaries[b].name, state.displacement, state.load, state.force});
   }
+  if (scene.data.part_at.empty()) add_wrinkles(scene, pool, f);
   return f;
+}
+
+void add_wrinkles(const Scene& scene, ThreadPool& pool, Frame& frame) {
+  std::vector<const ToolBody*> tools;
+  for (const ToolState& tool : scene.tools)
+    tools.push_back(&tool.body);
+  pool.run(static_cast<int>(frame.plies.size()), [&](int p) {
+    PlyFrame& ply = frame.plies[at(p)];
+    ply.wrinkle_height = wrinkles_of(ply, tools, least_wrinkle).at_nodes;
+  });
 }
 
 } // namespace plyform

@@ -11,10 +11,13 @@ namespace plyform {
 /// The surfaces of the tools in space at time 0, for pictures: they stay as they are for a run.
 std::vector<TriMesh> tool_surfaces(const Scene& scene, ThreadPool& pool);
 
-/// Fields at the scene's present positions. Forces and pressures are those of the last step.
-/// surfaces: of tool_surfaces.
+/// Fields at the scene's present positions, of a part (Case::part_at) without wrinkles. Forces and
+/// pressures are those of the last step. surfaces: of tool_surfaces.
 Frame make_frame(const Scene& scene, const std::vector<TriMesh>& surfaces, const Energies& energy,
                  ThreadPool& pool);
+
+/// Looks for wrinkles in all plies of a frame.
+void add_wrinkles(const Scene& scene, ThreadPool& pool, Frame& frame);
 
 /// Contact pressure at every node of one ply, N/mm^2: the normal contact forces on the two sides of
 /// the ply are summed separately; the larger sum is divided by the node's area.

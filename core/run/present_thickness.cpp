@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/present_thickness.hpp"
 
-#include "base/node_normals.hpp"
 #include "core/solver/make_contacts.hpp"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace {
 /// Halves of a ply at its nodes, below [0] and above [1]: means of what its contacts there say.
 class Halves {
 public:
-  Halves(const PlyBody& ply) : ply_(ply), normals_(area_normals(ply.x, ply.membrane.triangles)) {
+  Halves(const PlyBody& ply) : ply_(ply), normals_(normals_at_nodes(ply)) {
     sum_.fill(std::vector<double>(ply.x.size(), 0.0));
     weight_ = sum_;
   }

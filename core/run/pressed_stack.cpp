@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/pressed_stack.hpp"
 
-#include "base/node_normals.hpp"
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -45,7 +43,7 @@ class Flow {
 public:
   explicit Flow(const Scene& s) : scene_(s) {
     for (const PlyBody& ply : s.plies)
-      normals_.push_back(area_normals(ply.x, ply.membrane.triangles));
+      normals_.push_back(normals_at_nodes(ply));
     all_ = zero();
     for (std::size_t t = 0; t < s.tools.size(); ++t)
       add_tool(t);

@@ -3,21 +3,13 @@
 
 #include "base/format.hpp"
 #include "base/time_left.hpp"
-#include "base/version.hpp"
-#include "contact/intersections.hpp"
-#include "core/accuracy/error_model.hpp"
-#include "core/model/fabric_estimates.hpp"
 #include "core/model/motion.hpp"
 #include "core/run/checkpoint.hpp"
 #include "core/run/densest_packing.hpp"
-#include "core/run/facet_penetration.hpp"
+#include "core/run/finish_run.hpp"
 #include "core/run/output_state.hpp"
-#include "core/run/ply_motion.hpp"
-#include "core/run/ply_plausibility.hpp"
 #include "core/run/pressed_stack.hpp"
-#include "core/run/run_diagnosis.hpp"
-#include "core/run/sliding_ranges.hpp"
-#include "core/solver/element_mass_scaling.hpp"
+#include "core/run/whole_frame.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 
@@ -86,21 +78,6 @@ int outputs_due(const Scene& s) {
   return std::min(due, s.data.solver.outputs - 1); // the last one is due at the end
 }
 
-/// Contact report of the state in `s`, with the exact count of intersections.
-ContactReport audit(const Scene& s, const Snapshot& good, ThreadPool& pool) {
-  ContactReport r;
-  r.max_tool_penetration_mm = good.tool_penetration;
-  r.max_ply_penetration_mm = good.ply_penetration;
-  std::vector<MeshView> sheets;
-  for (const PlyBody& ply : s.plies)
-    sheets.push_back({ply.x, ply.membrane.triangles});
-  const Intersections found =
-      find_intersections(sheets, [&pool](int count, const auto& task) { pool.run(count, task); });
-  r.intersections_between_plies = static_cast<long>(found.between.size());
-  r.intersections_within_plies = static_cast<long>(found.within.size());
-  return r;
-}
-
 /// Share of a whole run that is done, its dwell included, which may end earlier.
 double share_done(const Scene& s) {
   return s.time / (s.data.solver.duration * (1.0 + s.data.solver.dwell));
@@ -118,119 +95,6 @@ Progress progress_of(const Scene& s, const Energies& e, double elapsed, double r
   return p;
 }
 
-/// Inserts reasons to doubt a result at the begin of WorkReport::missing, and changes the status
-/// "done" to "doubtful".
-void doubt_if(const std::vector<std::string>& reasons, Summary& sum) {
-  sum.doubts = reasons;
-  sum.work.missing.insert(sum.work.missing.begin(), reasons.begin(), reasons.end());
-  if (reasons.empty() || sum.status != "done") return;
-  sum.status = "doubtful";
-  for (const std::string& reason : reasons)
-    sum.message += (sum.message.empty() ? "" : "; ") + reason;
-}
-
-/// What WorkReport::missing says of the forces; empty if nothing.
-std::string unsettled_forces(const Scene& s, const Dwell& dwell) {
-  if (s.data.solver.dwell == 0.0 || dwell.settled || s.time < s.data.solver.duration) return {};
-  const bool pressed = !s.data.loads.empty();
-  return fmt::format("{} when the dwell ended, {:.2g} s after the {}: a larger solver.dwell, or a "
-                     "longer solver.duration, gives them more time",
-                     pressed ? "plies had not come to rest, or forces not settled,"
-                             : "forces had not settled",
-                     s.time - s.data.solver.duration, pressed ? "duration" : "stroke");
-}
-
-/// What is predicted, unless the premise of the rule does not hold.
-AccuracyReport accuracy_of(const Scene& s, bool flies) {
-  const Case& data = s.data;
-  const PredictedError error = predicted_error(data, effective_mass_factor(s));
-  AccuracyReport accuracy{error.inertia, error.softening,    error.mesh, error.promised(data),
-                          1.0,           error.unknown(data)};
-  if (!flies) return accuracy;
-  accuracy.inertia_deg = accuracy.promised_deg = std::numeric_limits<double>::quiet_NaN();
-  if (accuracy.unknown.empty())
-    accuracy.unknown = "plies fly at the end, and the rule of inertia is for plies that follow the "
-                       "tools";
-  return accuracy;
-}
-
-std::vector<PushedTool> pushed_tools(const Scene& s) {
-  constexpr double share = 0.05, still = 0.01; // of the time; mm
-  std::vector<PushedTool> found;
-  for (const ToolState& tool : s.tools)
-    if (tool.body.force_controlled)
-      found.push_back(
-          {tool.name, tool.body.speed, std::abs(tool.body.speed) * share * s.time < still});
-  return found;
-}
-
-/// What WorkReport::missing says of moulds that a force still closes.
-std::vector<std::string> moulds_under_way(const Summary& sum) {
-  std::vector<std::string> found;
-  const bool any = std::any_of(sum.plies.begin(), sum.plies.end(),
-                               [](const PlyReport& ply) { return ply.mould.has_value(); });
-  for (const PushedTool& tool : sum.pushed)
-    if (any && !tool.at_rest)
-      found.push_back(
-          fmt::format("rest: {}, pushed by a force, moves by {:.2g} mm/s at the end, of "
-                      "the simulated time; a longer solver.dwell lets the mould close",
-                      tool.name, tool.speed_mm_s));
-  return found;
-}
-
-void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool& pool,
-            double elapsed) {
-  const Snapshot& good = state.good;
-  Summary& sum = result.summary;
-  sum.title = s.data.title;
-  sum.version = version();
-  sum.wall_time_s = elapsed;
-  sum.steps = s.step;
-  sum.min_step_s = s.min_dt;
-  sum.max_step_s = s.max_dt;
-  sum.largest_added_mass = s.largest_added_mass;
-  sum.element_added_mass = largest_added_element_mass(s);
-  sum.threads = pool.size();
-  const LargestMotion motion = largest_motion(s, motion_of_plies(s), result.last.energy.external);
-  sum.motion_share = motion.share;
-  sum.flies = !motion.flying.empty();
-  sum.accuracy = accuracy_of(s, !motion.flying.empty());
-  sum.contact = audit(s, good, pool);
-  const std::vector<ToolCut> cuts = cuts_between_nodes(s, pool);
-  sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
-  sum.work = report_work(s, result.last);
-  sum.plies = report_plies(s, result.last);
-  sum.assumed = assumptions(s.data);
-  const auto stop_if = [&sum](bool wrong, const std::string& message) {
-    if (wrong && sum.status == "done") sum.status = "stopped", sum.message = message;
-  };
-  stop_if(sum.contact.intersections_between_plies > 0,
-          fmt::format("the plies overlap: {} pairs of triangles of different plies cross in "
-                      "the final state; a finer mesh or a longer solver.duration may help",
-                      sum.contact.intersections_between_plies));
-  stop_if(any_self_contact(s) && sum.contact.intersections_within_plies > 0,
-          fmt::format("a ply goes through itself: {} pairs of triangles of one ply cross in the "
-                      "final state, though it is in contact with itself; a finer mesh or a longer "
-                      "solver.duration may help",
-                      sum.contact.intersections_within_plies));
-  sum.known_forces = state.known_forces;
-  sum.pushed = pushed_tools(s);
-  std::vector<std::string> reasons = doubts(s, result.last, sum.plies, cuts);
-  for (auto&& more :
-       {doubts_of_forces(s, state.known_forces, state.astray), doubts_of_sliding(sum.work.pairs),
-        doubts_of_packing(s, result.last, state.packing)})
-    reasons.insert(reasons.end(), more.begin(), more.end());
-  if (sum.contact.intersections_within_plies > 0 && !any_self_contact(s))
-    reasons.push_back(fmt::format("do not trust folds: {} pairs of triangles of one ply cross, as "
-                                  "nothing keeps them apart; contact.self = \"on\" does",
-                                  sum.contact.intersections_within_plies));
-  doubt_if(reasons, sum);
-  for (std::string& moves : moulds_under_way(sum))
-    sum.work.missing.push_back(std::move(moves));
-  if (const std::string forces = unsettled_forces(s, state.dwell); !forces.empty())
-    sum.work.missing.push_back(forces);
-}
-
 /// One run: the loop over its steps.
 class Run {
 public:
@@ -241,7 +105,7 @@ public:
     begin();
     std::optional<Stop> stop = steps();
     if (stop) go_back(*stop);
-    finish(s_, state_, result_, pool_, elapsed());
+    finish(s_, state_, modelled(), result_, pool_, elapsed());
     return std::move(result_);
   }
 
@@ -261,8 +125,9 @@ private:
                                              "on: run it anew, without --resume",
                                              fault.what()));
       }
-      check_last(hooks_.resume->last);
       result_.last = hooks_.resume->last;
+      if (is_part()) take_part(result_.last);
+      check_last(hooks_.resume->last);
       result_.last.energy = state_.good.energy;
       begun_at_ = share_done(s_);
       next_mark_ = 1 + static_cast<int>(s_.time / s_.data.solver.duration * hooks_.marks.count);
@@ -272,6 +137,28 @@ private:
     keep(s_, state_.energy, state_.good);
   }
 
+  bool is_part() const { return !s_.data.part_at.empty(); }
+
+  /// The last output state of what is modelled; result_.last is what is shown of it.
+  const Frame& modelled() const { return is_part() ? part_ : result_.last; }
+
+  /// What is shown of a state of what is modelled.
+  Frame shown(Frame frame) {
+    if (!is_part()) return frame;
+    if (!whole_) whole_.emplace(s_.data, frame);
+    Frame whole = whole_->of(std::move(frame));
+    add_wrinkles(s_, pool_, whole);
+    return whole;
+  }
+
+  /// Of a run that goes on: the part in the place of the state that was shown.
+  void take_part(const Frame& last) {
+    part_ = make_frame(s_, tool_surfaces_, {}, pool_);
+    part_.time = last.time, part_.stroke_mm = last.stroke_mm, part_.step = last.step;
+    part_.energy = state_.good.energy;
+    whole_.emplace(s_.data, part_);
+  }
+
   /// The last output state before a resume must be of this scene.
   void check_last(const Frame& last) const {
     const auto told = std::count_if( // planes of symmetry are not
@@ -279,10 +166,14 @@ private:
         [](const Boundary& b) { return !b.is<SymmetryPlane>(); });
     bool fits = last.plies.size() == s_.plies.size() && last.tools.size() == s_.tools.size() &&
                 last.boundaries.size() == static_cast<std::size_t>(told) && last.step <= s_.step;
-    for (std::size_t p = 0; fits && p < s_.plies.size(); ++p)
+    for (std::size_t p = 0; fits && p < s_.plies.size(); ++p) {
+      const std::vector<Triangle>& own = s_.plies[p].membrane.triangles;
+      const std::size_t nodes = s_.plies[p].x0.size(), parts = 1U << s_.data.part_at.size();
       fits = last.plies[p].name == s_.plies[p].name &&
-             last.plies[p].x0.size() == s_.plies[p].x0.size() &&
-             last.plies[p].triangles == s_.plies[p].membrane.triangles;
+             last.plies[p].x0.size() == (whole_ ? whole_->nodes(p) : nodes) &&
+             last.plies[p].triangles.size() == parts * own.size() &&
+             std::equal(own.begin(), own.end(), last.plies[p].triangles.begin());
+    }
     if (!fits)
       throw std::runtime_error("the last state in results.h5 is not of this case, so that the run "
                                "cannot go on; run it anew, without --resume");
@@ -296,8 +187,10 @@ private:
                  time = first ? 0.0 : result_.last.time;
     follow_known_forces(s_, stroke, time, state_.known_forces);
     follow_astray_forces(s_, state_.astray);
-    result_.last = make_frame(s_, tool_surfaces_, state_.energy, pool_);
-    follow_packing(s_, result_.last, state_.packing);
+    Frame frame = make_frame(s_, tool_surfaces_, state_.energy, pool_);
+    follow_packing(s_, frame, state_.packing);
+    if (is_part()) part_ = frame;
+    result_.last = shown(std::move(frame));
     if (hooks_.frame) hooks_.frame(result_.last);
   }
 
@@ -352,7 +245,7 @@ private:
       }
       if (output) write(last);
       if (hooks_.watch.asked && hooks_.watch.asked())
-        hooks_.watch.drawn(make_frame(s_, watched_surfaces_, state_.energy, pool_));
+        hooks_.watch.drawn(shown(make_frame(s_, watched_surfaces_, state_.energy, pool_)));
       if (interrupted && !ended) {
         result_.summary.status = "interrupted";
         result_.summary.message = fmt::format("interrupted at step {}, time {:.6g} s of {:.6g} s",
@@ -382,6 +275,8 @@ private:
   std::vector<TriMesh> tool_surfaces_, watched_surfaces_;
   RunState state_;
   RunResult result_;
+  std::optional<WholeFrame> whole_; ///< of a part (Case::part_at)
+  Frame part_;
 };
 
 } // namespace

@@ -43,7 +43,7 @@ Bending bending_of(const PlyBody& ply) {
   const Membrane& m = ply.membrane;
   const MaterialAxes axes = material_axes(m.fabric);
   return make_bending(x, m.triangles, ply.bending->law, ply.angle + axes.first,
-                      ply.angle + axes.second, m.node_mass);
+                      ply.angle + axes.second, m.node_mass, ply.planes);
 }
 
 /// w_e of (E).

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/follow_temperature.hpp"
 
-#include "base/node_normals.hpp"
 #include "contact/forces/sliding_point.hpp"
 
 #include <algorithm>
@@ -55,7 +54,7 @@ Faces faces_of(const Layup& layup, std::size_t p) {
   const PlyBody& ply = layup.plies[p];
   const Fabric& fabric = ply.membrane.fabric;
   Faces faces;
-  faces.normals = area_normals(ply.x, ply.membrane.triangles);
+  faces.normals = normals_at_nodes(ply);
   faces.of.fill(std::vector<Face>(ply.x.size()));
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const double now = faces.normals[n].norm() / 6.0, before = ply.membrane.node_area[n];

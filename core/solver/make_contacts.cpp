@@ -191,6 +191,7 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBo
                      plies[p].membrane.fabric.surface_density,
                      data.friction(static_cast<int>(p), body), deepest);
     c.half_thickness = 0.5 * plies[p].thickness;
+    if (!data.tool_clearance.empty()) c.half_thickness += data.tool_clearance[index];
     rub(data, static_cast<int>(p), body, c.half_thickness, c.law);
     c.thickness_follows = plies[p].thickness_acts;
     give_way(c.law, 1.0, {&plies[p]});

@@ -42,6 +42,8 @@ struct PlyModel {
   std::optional<ViscousMembrane> viscous; ///< none without laws in the plane that have rates
   std::optional<ViscousBending> viscous_bending; ///< none without bending that has
   SheetEdges edges;
+  std::vector<SymmetryPlane> planes;       ///< of symmetry, at right angles to each other
+  std::vector<NodesOnPlane> on_planes;     ///< one for each
   double ridge_limit = 0.0;                ///< contact/search/sheet_ridges.hpp
   std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
   // What follows from which bodies may meet: core/model/reach_ahead.hpp.
@@ -209,6 +211,10 @@ struct PlyBody : PlyModel, PlyState, PlyCache {
   }
   EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }
 };
+
+/// Per node, the sum of the normals of its triangles, mirror images at planes of symmetry included,
+/// each twice as long (mm^2) as its area; on a plane half of it.
+std::vector<Vec3> normals_at_nodes(const PlyBody& ply);
 
 /// Area of a ply before forming, mm^2.
 inline double area_of(const PlyModel& ply) {

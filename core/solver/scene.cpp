@@ -4,6 +4,8 @@
 #include "base/thread_pool.hpp"
 #include "contact/search/unfolded.hpp"
 #include "core/mesh/mesh_ply.hpp"
+#include "core/model/boundary.hpp"
+#include "core/model/mirror.hpp"
 #include "core/model/motion.hpp"
 #include "core/model/reach_ahead.hpp"
 #include "core/model/reachable_temperature.hpp"
@@ -85,7 +87,7 @@ void set_bending(const Ply& ply, const BlankMesh& mesh, const PlyBody* alike, Pl
   } else {
     const MaterialAxes axes = material_axes(body.membrane.fabric);
     Bending bending = make_bending(mesh.x, body.membrane.triangles, law, ply.angle + axes.first,
-                                   ply.angle + axes.second, body.membrane.node_mass);
+                                   ply.angle + axes.second, body.membrane.node_mass, body.planes);
     body.bending = make_bending_simd(bending, body.x0);
     body.viscous_bending =
         make_viscous_bending(std::move(bending), body.membrane.node_mass, body.bound.yarns);
@@ -95,9 +97,23 @@ void set_bending(const Ply& ply, const BlankMesh& mesh, const PlyBody* alike, Pl
   body.bending_end = body.bending_states;
 }
 
-/// alike: a ply of the same fabric, angle and mesh, or null.
+/// The nodes on each of these planes. x0: mm.
+std::vector<NodesOnPlane> nodes_on(const std::vector<SymmetryPlane>& planes,
+                                   std::span<const Vec3> x0) {
+  std::vector<NodesOnPlane> found;
+  for (const SymmetryPlane& plane : planes) {
+    NodesOnPlane& on = found.emplace_back(NodesOnPlane{normal_of(plane), {}});
+    for (std::size_t n = 0; n < x0.size(); ++n)
+      if (lies_on(plane, x0[n].head<2>())) on.nodes.push_back(static_cast<std::int32_t>(n));
+  }
+  return found;
+}
+
+/// alike: a ply of the same fabric, angle, mesh and planes of symmetry, or null.
 PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const PlyBody* alike) {
   PlyBody body;
+  const auto number = static_cast<int>(&ply - data.plies.data());
+  body.planes = planes_of(data.boundaries, number);
   const Fabric& fabric = data.fabrics[ply.fabric];
   body.name = ply.name;
   body.angle = ply.angle;
@@ -118,7 +134,8 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   } else {
     body.q.resize(mesh.triangles.size());
   }
-  body.edges = sheet_edges(body.membrane.triangles, body.x0);
+  body.on_planes = nodes_on(body.planes, body.x0);
+  body.edges = sheet_edges(body.membrane.triangles, body.x0, body.on_planes);
   body.touches_boundary_edge = faces_on_rim(body.edges.all, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   set_frequency(data, body);
@@ -210,7 +227,9 @@ void make_attachments(Scene& s) {
     sheets.push_back({ply.x0, ply.membrane.triangles});
   for (std::size_t b = 0; b < s.data.boundaries.size(); ++b) {
     if (prescribes(s.data.boundaries[b])) continue;
-    s.attachments.push_back(attach(s.data.boundaries, b, sheets));
+    Attachment attachment = attach(s.data.boundaries, b, sheets);
+    if (attachment.nodes.empty()) continue; // of a part: it holds an image
+    s.attachments.push_back(std::move(attachment));
     const bool spring = s.data.boundaries[b].is<TensionSpring>();
     for (const AttachedNode& node : s.attachments.back().nodes) {
       PlyBody& ply = s.plies[node.ply];
@@ -219,13 +238,17 @@ void make_attachments(Scene& s) {
   }
 }
 
-/// Whether a ply on this mesh is of the same fabric, angle and mesh as another, which has been
-/// made.
-bool is_alike(const Ply& ply, const BlankMesh& mesh, const Ply& other, const PlyBody& made) {
+/// Whether ply p on this mesh is of the same fabric, angle, mesh and planes of symmetry as ply q,
+/// which has been made.
+bool is_alike(const Case& data, std::size_t p, const BlankMesh& mesh, std::size_t q,
+              const PlyBody& made) {
+  const Ply &ply = data.plies[p], &other = data.plies[q];
   return ply.fabric == other.fabric && ply.angle == other.angle &&
+         planes_of(data.boundaries, static_cast<int>(p)) ==
+             planes_of(data.boundaries, static_cast<int>(q)) &&
          mesh.triangles == made.membrane.triangles && mesh.x.size() == made.x0.size() &&
          std::equal(mesh.x.begin(), mesh.x.end(), made.x0.begin(),
-                    [](const Vec2& p, const Vec3& q) { return p == q.head<2>(); });
+                    [](const Vec2& before, const Vec3& x) { return before == x.head<2>(); });
 }
 
 /// Lets a ply hold the constants of its kernels in common with those laid before it.
@@ -264,7 +287,7 @@ std::vector<PlyBody> make_plies(const Case& data, const std::vector<BlankMesh>& 
       const BlankMesh mesh = meshes.empty() ? mesh_ply(data, ply) : meshes[p];
       const PlyBody* alike = nullptr;
       for (std::size_t q = 0; q < first && !alike; ++q)
-        if (is_alike(ply, mesh, data.plies[q], plies[q])) alike = &plies[q];
+        if (is_alike(data, p, mesh, q, plies[q])) alike = &plies[q];
       plies[p] = make_ply(data, ply, mesh, alike);
     });
     for (std::size_t p = first; p < end; ++p)

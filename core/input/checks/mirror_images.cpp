@@ -44,20 +44,6 @@ bool crossings_are_symmetric(const Fabric& fabric, const std::vector<std::size_t
 
 } // namespace
 
-Vec3 normal_of(const SymmetryPlane& plane) {
-  return {plane.normal.x(), plane.normal.y(), 0.0};
-}
-
-Vec3 mirrored(const SymmetryPlane& plane, const Vec3& x) {
-  const Vec3 normal = normal_of(plane), point(plane.point.x(), plane.point.y(), 0.0);
-  return x - 2.0 * (x - point).dot(normal) * normal;
-}
-
-Vec3 mirrored_direction(const SymmetryPlane& plane, const Vec3& v) {
-  const Vec3 normal = normal_of(plane);
-  return v - 2.0 * v.dot(normal) * normal;
-}
-
 std::vector<std::string> broken_by_fibres(const Ply& ply, const Fabric& fabric,
                                           const SymmetryPlane& plane) {
   std::vector<std::string> broken;

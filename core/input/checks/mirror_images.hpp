@@ -5,19 +5,13 @@
 #pragma once
 
 #include "core/input/checks/initial_scene.hpp"
+#include "core/model/mirror.hpp"
 
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace plyform {
-
-Vec3 normal_of(const SymmetryPlane& plane);
-
-/// Of a place.
-Vec3 mirrored(const SymmetryPlane& plane, const Vec3& x);
-/// Of a direction.
-Vec3 mirrored_direction(const SymmetryPlane& plane, const Vec3& v);
 
 /// Why the mirror image of a ply's fabric is not the fabric again, each as what the image "has" or
 /// does; empty if it is.

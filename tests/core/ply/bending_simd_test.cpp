@@ -122,6 +122,134 @@ TEST(BendingSimd, KnowAHoleAndTrianglesThatOnlyShareANode) {
   }
 }
 
+/// A part and all its images at planes as one sheet: its nodes first.
+struct WholeSheet {
+  BlankMesh mesh;
+  std::vector<std::pair<std::size_t, std::size_t>> of; ///< of each node: that of the part, mirror
+};
+
+WholeSheet whole_of(const BlankMesh& part, const std::vector<SymmetryPlane>& planes) {
+  WholeSheet whole;
+  const std::vector<Mirror> mirrors = images_at(planes);
+  for (std::size_t i = 0; i < mirrors.size(); ++i) {
+    std::vector<std::int32_t> number;
+    for (std::size_t n = 0; n < part.x.size(); ++n) {
+      const Vec2 x = mirrors[i].place({part.x[n].x(), part.x[n].y(), 0.0}).head<2>();
+      std::size_t k = 0;
+      while (k < whole.mesh.x.size() && (whole.mesh.x[k] - x).norm() > 1e-9)
+        ++k;
+      if (k == whole.mesh.x.size()) whole.mesh.x.push_back(x), whole.of.emplace_back(n, i);
+      number.push_back(static_cast<std::int32_t>(k));
+    }
+    for (const auto& [a, b, c] : part.triangles) {
+      Triangle& t =
+          whole.mesh.triangles.emplace_back(Triangle{number[at(a)], number[at(b)], number[at(c)]});
+      if (mirrors[i].turns_round()) std::swap(t[1], t[2]);
+    }
+  }
+  return whole;
+}
+
+TEST(BendingSimd, APartSeesItsImagesBeyondPlanesOfSymmetry) {
+  const double slant = std::numbers::sqrt2 / 2.0;
+  const std::vector<SymmetryPlane> middle = {{{2.0, 0.0}, {1.0, 0.0}}, {{0.0, 1.0}, {0.0, 1.0}}},
+                                   slanted = {{{0.0, 0.0}, {slant, slant}}};
+  BlankSpec square;
+  square.outline.boundary = {{2, 1}, {42, 1}, {42, 31}, {2, 31}};
+  square.element_size = 4.0;
+  BlankSpec corner = square;
+  corner.outline.boundary = {{-30, 30}, {30, -30}, {30, 30}};
+  Random random(17);
+  for (const auto& [spec, at_planes] : {std::pair(square, middle), std::pair(corner, slanted)})
+    for (const MeshKind kind : {MeshKind::crossed, MeshKind::free})
+      for (const BendingLaw& law : {laws()[1], laws()[4], laws()[5]}) {
+        const std::vector<SymmetryPlane> planes = at_planes;
+        BlankSpec of = spec;
+        of.mesh = kind;
+        const BlankMesh part = mesh_blank(of, warp, weft);
+        const WholeSheet whole = whole_of(part, planes);
+        std::vector<Vec3> x = random_state(part, 1.02, 0.3, random);
+        std::vector<unsigned> on(x.size(), 0);
+        for (std::size_t n = 0; n < x.size(); ++n)
+          for (std::size_t k = 0; k < planes.size(); ++k)
+            if (lies_on(planes[k], part.x[n])) {
+              on[n] |= 1U << k;
+              const Vec3 normal = normal_of(planes[k]);
+              const Vec3 point(planes[k].point.x(), planes[k].point.y(), 0.0);
+              x[n] -= (x[n] - point).dot(normal) * normal;
+            }
+        const std::vector<double> mass(part.x.size(), 1e-8), masses(whole.of.size(), 1e-8);
+        const Bending b = make_bending(part.x, part.triangles, law, warp, weft, mass, planes);
+        const Bending c = make_bending(whole.mesh.x, whole.mesh.triangles, law, warp, weft, masses);
+        BendingSimd one = make_bending_simd(b, unformed(part));
+        const std::vector<Vec3> force = by_simd(one, x);
+        const double scale = largest_norm(force);
+        for (std::size_t s = 0; s < part.x.size(); ++s) // as many nodes as in the whole
+          ASSERT_EQ(b.begin[s + 1] - b.begin[s], c.begin[s + 1] - c.begin[s]) << s;
+        // energy falls by the work of the forces, images moving along
+        std::vector<Vec3> way(x.size());
+        for (std::size_t n = 0; n < x.size(); ++n)
+          way[n] = 1e-4 * random_vector(random);
+        const auto moved = [&](double by) {
+          std::vector<Vec3> y = x;
+          for (std::size_t n = 0; n < x.size(); ++n) {
+            Vec3 step = by * way[n];
+            for (std::size_t k = 0; k < planes.size(); ++k)
+              if (on[n] >> k & 1U) step -= step.dot(normal_of(planes[k])) * normal_of(planes[k]);
+            y[n] += step;
+          }
+          return y;
+        };
+        double work = 0.0;
+        const std::vector<Vec3> ahead = moved(1.0), back = moved(-1.0);
+        for (std::size_t n = 0; n < x.size(); ++n)
+          work += force[n].dot(ahead[n] - back[n]);
+        const double change = bending_energy(one, back) - bending_energy(one, ahead);
+        EXPECT_NEAR(work, change, 1e-5 * scale * 1e-4 * static_cast<double>(x.size()));
+      }
+}
+
+TEST(BendingSimd, AQuarterHasAQuarterOfTheForces) {
+  const std::vector<SymmetryPlane> planes = {{{0.0, 0.0}, {1.0, 0.0}}, {{0.0, 0.0}, {0.0, 1.0}}};
+  BlankSpec spec;
+  spec.outline.boundary = {{0, 0}, {40, 0}, {40, 30}, {0, 30}};
+  spec.element_size = 4.0;
+  Random random(18);
+  for (const MeshKind kind : {MeshKind::crossed, MeshKind::free, MeshKind::diagonal}) {
+    spec.mesh = kind;
+    const BlankMesh part = mesh_blank(spec, 0.0, 0.5 * std::numbers::pi);
+    const WholeSheet whole = whole_of(part, planes);
+    const std::vector<Mirror> mirrors = images_at(planes);
+    for (const BendingLaw& law : {laws()[0], laws()[1], laws()[3], laws()[4]}) {
+      std::vector<Vec3> x = random_state(part, 1.02, 0.3, random);
+      for (std::size_t n = 0; n < x.size(); ++n)
+        for (int k = 0; k < 2; ++k)
+          if (std::abs(part.x[n][k]) < 1e-9) x[n][k] = 0.0;
+      std::vector<Vec3> all;
+      for (const auto& [n, mirror] : whole.of)
+        all.push_back(mirrors[mirror].place(x[n]));
+      const std::vector<double> mass(part.x.size(), 1e-8), masses(whole.of.size(), 1e-8);
+      const double across = 0.5 * std::numbers::pi;
+      BendingSimd one = make_bending_simd(
+                      make_bending(part.x, part.triangles, law, 0.0, across, mass, planes),
+                      unformed(part)),
+                  other = make_bending_simd(
+                      make_bending(whole.mesh.x, whole.mesh.triangles, law, 0.0, across, masses),
+                      unformed(whole.mesh));
+      const double energy = bending_energy(other, all);
+      EXPECT_NEAR(4.0 * bending_energy(one, x), energy, 1e-9 * energy);
+      const std::vector<Vec3> of_part = by_simd(one, x), of_whole = by_simd(other, all);
+      const double scale = largest_norm(of_whole);
+      for (std::size_t n = 0; n < x.size(); ++n) {
+        Vec3 force = of_part[n];
+        for (int k = 0; k < 2; ++k) // of a node on a plane half is the part's
+          if (std::abs(part.x[n][k]) < 1e-9) force *= 2.0, force[k] = 0.0;
+        EXPECT_LE((force - of_whole[n]).norm(), 1e-9 * scale) << n;
+      }
+    }
+  }
+}
+
 /// A block of groups of four stencils. Most successive groups have as many slots; some have more
 /// than are computed together.
 struct StencilBlock {
