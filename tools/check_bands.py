@@ -40,7 +40,7 @@ try:
     from base.ending import Mistake, ended
     from base.files import TEXT, check_file, read_text, read_toml
     from base.program import find_program
-    from base.summary_file import read_summary
+    from base.summary_file import SOUND, read_summary
     from compare import table
     from plotting.reading import Trouble
     from plotting.whole_file import write_whole
@@ -239,7 +239,7 @@ def figures_of(program: Path, first: Run, second: Run) -> list[Figure]:
     """Those of a scene, by (1)."""
     one, two = summary_of(first), summary_of(second)
     for run, summary in ((first, one), (second, two)):
-        if summary.get("status") not in ("done", "doubtful"):
+        if summary.get("status") not in SOUND:
             raise Trouble(f"{run.folder}: {summary.get('message') or 'is missing'}")
     apart = {f"shear of {ply}": by for ply, by in shear_differences(program, first, second).items()}
     a, b = scalars(one), scalars(two)

@@ -24,6 +24,7 @@ try:
     from base.ending import Mistake, ended
     from base.files import read_toml
     from base.program import find_program
+    from base.summary_file import SOUND
     from check_bands import (Run, do_run, fill, folder_of, parsed, parser_of, read_scenes, summary_of,
                              version_of)
     from compare import table
@@ -53,7 +54,7 @@ def row_of(program: Path, run: Run, reference: Run) -> list:
     """Name, triangles, steps, status, predicted and measured error."""
     coarse, fine = summary_of(run), summary_of(reference)
     for one, summary in ((run, coarse), (reference, fine)):
-        if summary.get("status") not in ("done", "doubtful"):
+        if summary.get("status") not in SOUND:
             raise Trouble(f"{one.folder}: {summary.get('message') or 'is missing'}")
     return [run.scene.name, coarse["elements"], coarse["steps"], coarse["status"],
             coarse["accuracy"]["promised_shear_error_deg"], difference(program, run, reference)]

@@ -38,7 +38,8 @@ SUMMARY = {
     "pairs": ({"a": TEXT, "b": TEXT},), "assumed": (TEXT,), "could_be_left_out": (TEXT,),
     "missing": (TEXT,), "doubts": (TEXT,), "advice": (TEXT,), "case": {...: TEXT},
     "verification": {"figures": (FIGURE,)}, "figures": {"plies": DESCRIBED, "run": DESCRIBED}}
-STATUSES = ("done", "doubtful", "stopped", "interrupted")
+SOUND = ("done", "doubtful", "instant")  # of runs that went to their end
+STATUSES = (*SOUND, "stopped", "interrupted")
 NEEDED = ("status", "plies", "tools", "energy", "contact")
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from base.ending import Trouble
 from base.files import TABLE, check_file, read_text
 from base.results_file import Column, Results, read_results
-from base.summary_file import known_to_s, read_summary
+from base.summary_file import SOUND, known_to_s, read_summary
 
 __all__ = ["SHEAR", "Ply", "State", "Tool", "Trouble", "ended", "file_in", "read_history",
            "read_state", "read_states", "read_summary", "read_table"]
@@ -117,7 +117,7 @@ def state_of(results: Results, field: str, frame: int, tools: bool) -> State:
 
 def ended(summary: dict) -> bool:
     """Whether a run went all the way to its end, be its result doubtful or not."""
-    return summary["status"] in ("done", "doubtful")
+    return summary["status"] in SOUND
 
 
 def read_table(path: Path, needed: list[str] = ()) -> dict[str, np.ndarray]:

@@ -74,6 +74,8 @@ def verdict(run: Run, found: list[Answer]) -> tuple[str, Markup]:
     if status == "interrupted":
         return status, Markup("Not finished: the run was interrupted at {}."
                               ).format(there)
+    if status == "instant":
+        return status, Markup("A first answer: {}").format(sentence(run.summary["message"]))
     pressed = any("load_pressure_N_mm2" in ply.history for ply in run.plies)
     what = "Forms" if run.tools or pressed else "Ran to its end (no tools: a test of the fabric)"
     there = Markup("to {}" if run.has_stroke() else "in {}").format(there)

@@ -6,13 +6,13 @@ import json
 from pathlib import Path
 
 from area_means import compare
+from base.summary_file import SOUND
 from plotting.reading import Trouble
 from studies.engine import ended
 from studies.plan import Planner, Run
 from studies.reader import is_number
 from studies.run_job import read_json
 
-SOUND = ("done", "doubtful")
 APART, ROUGH = "area_means_deg", ("jump_deg", "outlier_deg")
 COLUMNS = (APART, *ROUGH)
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The error that a study is about, and the runs that are best for their time."""
 
+from base.summary_file import SOUND
 from studies.ranking import is_number
 from studies.study_file import Study
 
-SOUND = ("done", "doubtful")
 FRONT = "wall_time_s"
 
 

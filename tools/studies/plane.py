@@ -3,10 +3,10 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
+from base.summary_file import SOUND
 from studies.ranking import is_number
 from studies.shown import Picture
 
-SOUND = ("done", "doubtful")
 MARKS = {"stopped": "x", "failed": "+", "refused": "+"}
 
 

@@ -3,6 +3,7 @@
 another key, a line for each combination of the keys that are left."""
 
 import matplotlib.pyplot as plt
+from base.summary_file import SOUND
 from plotting.looks import STYLES, colour, finish
 from plotting.reading import Trouble
 from studies.discs import APART
@@ -10,7 +11,6 @@ from studies.ranking import is_number
 from studies.shown import Picture
 from studies.study_file import Study
 
-SOUND = ("done", "doubtful")
 SIDE = 2.6  # inches of a plot
 NONE = "none"
 

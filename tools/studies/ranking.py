@@ -4,6 +4,7 @@
 import math
 
 import numpy as np
+from base.summary_file import SOUND
 from studies.reader import LARGEST
 from studies.study_file import DRAWN, Study
 
@@ -70,7 +71,7 @@ def together(study: Study, names: list[str], rows: list[dict], figure: str) -> l
 
 def rank(study: Study, names: list[str], rows: list[dict]) -> list[dict]:
     """Rows of ranking.csv, figure by figure, what moves it most first."""
-    ended = [row for row in rows if row["status"] in ("done", "doubtful")]
+    ended = [row for row in rows if row["status"] in SOUND]
     figures = dict.fromkeys(name for row in ended for name, value in row.items()
                             if name not in (*SKIPPED, *names) and is_number(value))
     effects = []

@@ -19,6 +19,7 @@ import sys
 import time
 from pathlib import Path
 
+SOUND = ("done", "doubtful", "instant")  # base.summary_file has it; this program imports nothing of others
 ENDED = "ended.json"
 KILLED_FOLDER = "killed"  # of notes on runs that were ended from outside
 LOG_END = 4096            # bytes of a log that are looked at
@@ -65,7 +66,7 @@ def status_of(code: int, summary: dict) -> str:
     status = summary.get("status")
     if -code in KILLED or status == "interrupted":
         return ""
-    if code == 0 and status in ("done", "doubtful") or code == 3 and status == "stopped":
+    if code == 0 and status in SOUND or code == 3 and status == "stopped":
         return status
     return "refused" if code == 2 else "failed"
 
@@ -101,7 +102,7 @@ def do_run(name: str, run: dict, study: dict) -> bool:
             print(f"{name}: {killed.read_text(encoding='utf-8')}", flush=True)
             return False
         killed.unlink(missing_ok=True)
-        message = summary.get("message") or "" if status in ("done", "doubtful", "stopped") else \
+        message = summary.get("message") or "" if status in (*SOUND, "stopped") else \
             f"{how(code)}: {end_of_log(work)}"
         end = {"status": status, "exit_code": code, "cpu_s": cpu,
                 "wall_time_s": summary.get("wall_time_s", wall), "message": message, **run}

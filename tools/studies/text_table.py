@@ -14,6 +14,7 @@ from pathlib import Path
 
 from compare import table
 from base.files import read_text
+from base.summary_file import SOUND
 from plotting.reading import Trouble
 from plotting.whole_file import make_in, write_whole
 from studies import reach
@@ -62,7 +63,7 @@ def markdown(study: Study, rows: list[dict]) -> str:
              table(["run", *templates], cells, 2),
              "\n".join(f"- **{word}**: {text}" for word, text in verdicts(study, rows))]
     lines = [f"- {title(row)} was {row['status']}: {row['message']}" for row in ended
-             if row["status"] not in ("done", "doubtful")]
+             if row["status"] not in SOUND]
     if missing := [title(row) for row in rows if row["status"] == "missing"]:
         lines.append(f"- {len(missing)} not there: {', '.join(missing)}")
     return "\n\n".join(part for part in (*parts, "\n".join(lines)) if part)

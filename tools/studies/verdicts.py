@@ -4,12 +4,11 @@
 import fnmatch
 import math
 
+from base.summary_file import SOUND
 from studies.discs import APART
 from studies.ranking import is_number
 from studies.shown import Limit
 from studies.study_file import METHODS, Study
-
-SOUND = ("done", "doubtful")
 
 
 def title(row: dict) -> str:

@@ -19,7 +19,7 @@ from ..processes.processes import Processes
 from ..processes.records import LIVE
 from ..project.project import OWN, Project
 
-STATES = ("queued", "starting", "running", "done", "doubtful", "stopped", "interrupted", "failed", "killed",
+STATES = ("queued", "starting", "running", "done", "doubtful", "instant", "stopped", "interrupted", "failed", "killed",
           "taken out", "damaged")
 SIGNS = ("summary.json", "progress.json", "results.h5")
 OF_SUMMARY = ("status", "message", "title", "stroke_mm", "wall_time_s", "steps", "version")

@@ -2,7 +2,7 @@
 // How runs are spoken of.
 
 const STATES = {
-  queued: "waits", starting: "starts", running: "runs", done: "done", doubtful: "doubtful",
+  queued: "waits", starting: "starts", running: "runs", done: "done", doubtful: "doubtful", instant: "instant",
   stopped: "stopped itself", interrupted: "interrupted", failed: "could not run", killed: "killed",
   "taken out": "taken out", damaged: "damaged",
 };
