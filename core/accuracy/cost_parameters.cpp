@@ -3,6 +3,7 @@
 
 #include "core/accuracy/error_numbers.hpp"
 #include "core/mesh/mesh_blank.hpp"
+#include "core/model/boundary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -82,11 +83,11 @@ bool may_coarsen(const Case& data, double by) {
     if (smallest_wanted(blank) > std::min(longest, most_thicknesses * thickness)) return false;
     if (!takes_elements(blank)) return false;
   }
-  return data.boundaries.empty(); // the nodes that they prescribe depend on the mesh
+  return !hold_by_mesh(data.boundaries); // the nodes that they prescribe depend on the mesh
 }
 
 bool may_refine(const Case& data, double by) {
-  return data.boundaries.empty() &&
+  return !hold_by_mesh(data.boundaries) &&
          std::all_of(data.plies.begin(), data.plies.end(), [&](const Ply& ply) {
            BlankSpec blank = data.blanks[ply.blank];
            scale_elements(blank, by);

@@ -35,10 +35,14 @@ std::string nodes_held(const Scene& s, int boundary) {
   return text.empty() ? "no nodes that others do not hold" : text;
 }
 
-bool holds_bending_ply(const Scene& s, const Boundary& boundary) {
-  if (boundary.ply >= 0) return s.plies[boundary.ply].bending.has_value();
-  return std::any_of(s.plies.begin(), s.plies.end(),
-                     [](const PlyBody& ply) { return ply.bending.has_value(); });
+/// Whether a ply that resists bending can fold along a plane of symmetry: where planes are not at
+/// right angles.
+bool is_hinge(const Scene& s, const Boundary& boundary) {
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    if (s.plies[p].bending && s.plies[p].planes.empty() &&
+        (boundary.ply < 0 || at(boundary.ply) == p))
+      return true;
+  return false;
 }
 
 /// What the line of a boundary says of its kind, and of what it does.
@@ -122,20 +126,22 @@ std::vector<std::string> boundaries_ahead(const Scene& s) {
     const int index = static_cast<int>(b);
     const bool plane = boundary.is<SymmetryPlane>();
     part = part || plane;
-    hinge = hinge || (plane && holds_bending_ply(s, boundary));
+    hinge = hinge || (plane && is_hinge(s, boundary));
     const KindAhead::Words words = std::visit(KindAhead{s, index}, boundary.kind);
     lines.push_back(fmt::format("boundary {}: {}, holds {}{}", boundary.name, words.kind,
                                 nodes_held(s, index), words.action));
     if (const Attachment* attached = attachment_of(s, index)) describe_stiff(s, *attached, lines);
   }
-  if (part)
+  if (!s.data.part_at.empty())
+    lines.emplace_back("symmetry: forces, energies and fields are those of the whole");
+  else if (part)
     lines.emplace_back(
         "symmetry: forces and energies, of tools too, are those of the part modelled; "
         "a tool's given force acts on that part");
   if (hinge)
     lines.emplace_back(
-        "    note: bending takes a plane of symmetry for a free edge: the ply can fold "
-        "along it as on a hinge");
+        "    note: bending takes planes of symmetry that are not at right angles for free "
+        "edges: the ply can fold along them as on hinges");
   return lines;
 }
 

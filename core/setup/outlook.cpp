@@ -153,11 +153,12 @@ void describe_way(const Scene& s, std::size_t tool, const std::vector<FlatPly>& 
   if (std::isfinite(way.travel)) describe_pressure(s, tool, way, lines);
 }
 
-std::string motion_text(const Tool& t) {
+/// parts: of the whole that is shown.
+std::string motion_text(const Tool& t, double parts) {
   if (t.motion == Motion::fixed) return "fixed";
   const bool driven = t.motion == Motion::driven;
-  std::string text =
-      driven ? fmt::format("driven {:g} mm", t.stroke) : fmt::format("pushed by {:g} N", t.force);
+  std::string text = driven ? fmt::format("driven {:g} mm", t.stroke)
+                            : fmt::format("pushed by {:g} N", parts * t.force);
   if (!t.programme.empty())
     text += fmt::format(" at most, in {} {}", t.programme.size(),
                         t.programme.size() == 1 ? "stage" : "stages");
@@ -176,7 +177,7 @@ void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, bool m
   for (std::size_t i = 0; i < s.tools.size(); ++i) {
     const ToolState& t = s.tools[i];
     const double radius = smallest_radius(t.body.shape);
-    say(lines, "tool {}: {}{}", t.name, motion_text(s.data.tools[i]),
+    say(lines, "tool {}: {}{}", t.name, motion_text(s.data.tools[i], 1U << s.data.part_at.size()),
         std::isfinite(radius) ? fmt::format(", smallest radius {:.4g} mm", radius) : std::string());
     describe_way(s, i, plies, reach + s.data.tools[i].position.norm(), lines);
     if (!mesh_to_come) describe_cut(s, i, lines);

@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "core/model/bending_resolution.hpp"
 #include "core/model/fabric_estimates.hpp"
+#include "core/model/mirror.hpp"
 #include "core/model/motion.hpp"
 #include "core/run/facet_penetration.hpp"
 
@@ -93,8 +94,9 @@ void describe_locking(const Scene& s, Lines& lines) {
     const Ply& ply = s.data.plies[p];
     if (!averaged || !push || !seen.emplace(ply.fabric, ply.blank).second) continue;
     Eigen::AlignedBox3d box;
-    for (const Vec3& x : s.plies[p].x0)
-      box.extend(x);
+    for (const Mirror& mirror : images_at(s.plies[p].planes))
+      for (const Vec3& x : s.plies[p].x0)
+        box.extend(mirror.place(x));
     const double width = box.sizes().head<2>().minCoeff();
     const double h = element_size(s.plies[p]);
     if (width >= enough * h) continue;
@@ -140,6 +142,7 @@ void describe_wrinkles(const Scene& s, Lines& lines) {
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const Ply& ply = s.data.plies[p];
     if (!seen.emplace(ply.fabric, ply.blank).second) continue;
+    const double parts = 1U << s.data.part_at.size();
     const double area = area_of(s.plies[p]), h = element_size(s.plies[p]);
     const auto wave = bending_lengths(s.plies[p].membrane.fabric, force / area).upwards;
     if (!wave || *wave >= elements_in_wave * h) continue;
@@ -147,7 +150,7 @@ void describe_wrinkles(const Scene& s, Lines& lines) {
         "    note: under {:g} N of a tool the yarns of ply {} would wrinkle in waves of "
         "{:.3g} mm, {:.2g} elements: the mesh shows how much length is too much, not the "
         "wrinkles; they would take elements of {:.2g} mm",
-        force, ply.name, *wave, *wave / h, *wave / elements_in_wave);
+        parts * force, ply.name, *wave, *wave / h, *wave / elements_in_wave);
   }
 }
 

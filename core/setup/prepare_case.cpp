@@ -6,6 +6,8 @@
 #include "base/thread_pool.hpp"
 #include "core/input/checks/unit_checks.hpp"
 #include "core/model/motion.hpp"
+#include "core/setup/instant.hpp"
+#include "core/setup/part_of_scene.hpp"
 #include "core/setup/size_ahead.hpp"
 
 #include <cmath>
@@ -157,6 +159,18 @@ parameters_set(const std::set<std::string>& overridden) {
   return {fixed, keys};
 }
 
+/// Refuses an instant answer where there is none.
+void check_instant(PreparedCase& prepared) {
+  const std::string reason = not_for_plies_alone(*prepared.value);
+  if (reason.empty()) return;
+  const SourceLocation& solver = prepared.parts.solver;
+  prepared.errors.push_back({solver.at.file, solver.at.line, solver.at.column, "accuracy.instant",
+                             "true",
+                             "forms each ply alone, which says nothing of this case: " + reason,
+                             "take --accuracy draft, or none"});
+  prepared.value.reset();
+}
+
 } // namespace
 
 PickedCase pick_case(const std::filesystem::path& file, const std::vector<Override>& overrides) {
@@ -210,6 +224,10 @@ PreparedCase prepare_case(const std::filesystem::path& file, const std::vector<O
   prepared.fixed = picked.fixed;
   prepared.parts = std::move(picked.reading.parts);
   prepared.size = size;
+  if (prepared.value && prepared.value->accuracy.instant)
+    check_instant(prepared); // it looks for symmetry itself
+  else
+    take_part(prepared);
   return prepared;
 }
 

@@ -37,6 +37,7 @@ struct PreparedCase {
   FixedParameters fixed;          ///< as in PickedCase
   CaseParts parts = {};           ///< where they stand
   CaseSize size = CaseSize::any;
+  std::optional<Case> whole = {}; ///< of which `value` is a part: core/setup/part_of_scene.hpp
 };
 
 /// pick_case, check_case.

@@ -138,7 +138,7 @@ SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const MeshRequest
   bool asked = false;
   for (std::size_t p = 0; p < data.plies.size(); ++p)
     asked = asked || !blank_of(data, p).mesh_from.empty();
-  if (!asked) return {};
+  if (!asked || data.accuracy.instant) return {};
   SceneMesh found;
   try {
     found = find_sizes(prepared, threads, request);

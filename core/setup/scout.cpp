@@ -5,6 +5,7 @@
 #include "core/accuracy/cost_parameters.hpp"
 #include "core/mesh/mesh_blank.hpp"
 #include "core/mesh/mesh_ply.hpp"
+#include "core/model/boundary.hpp"
 #include "core/setup/chord_sizes.hpp"
 #include "core/setup/shear_sizes.hpp"
 #include "core/setup/size_ahead.hpp"
@@ -48,7 +49,7 @@ Case scout_case(const Case& data) {
     blank.zones.clear(), blank.sizes.reset();
     BlankSpec coarse = blank;
     scale_elements(coarse, scout_coarsening);
-    if (data.boundaries.empty() && takes_elements(coarse)) blank = coarse;
+    if (!hold_by_mesh(data.boundaries) && takes_elements(coarse)) blank = coarse;
   }
   fast.accuracy = {preset_error("draft") * degree, false};
   pick_cost_parameters(fast, {.element_size = true});
@@ -93,7 +94,27 @@ private:
   double most_, allowed_ = least;
 };
 
-/// Where plies and tools are, and no more.
+/// The places of the first of a ply's nodes and triangles: of a part whose whole is shown, of its
+/// own, which come first.
+PlyFrame first_of(const PlyFrame& ply, const BlankMesh& mesh) {
+  const auto nodes = static_cast<std::ptrdiff_t>(mesh.x.size()),
+             triangles = static_cast<std::ptrdiff_t>(mesh.triangles.size());
+  PlyFrame places;
+  places.x0.assign(ply.x0.begin(), ply.x0.begin() + nodes);
+  places.x.assign(ply.x.begin(), ply.x.begin() + nodes);
+  places.triangles.assign(ply.triangles.begin(), ply.triangles.begin() + triangles);
+  return places;
+}
+
+/// Where the plies and tools of what is modelled are, and no more.
+Frame places_of(const Frame& shown, const std::vector<BlankMesh>& meshes) {
+  Frame state;
+  for (std::size_t p = 0; p < meshes.size(); ++p)
+    state.plies.push_back(first_of(shown.plies[p], meshes[p]));
+  for (const ToolFrame& tool : shown.tools)
+    state.tools.emplace_back().displacement = tool.displacement;
+  return state;
+}
 Frame places_of(const Scene& scene) {
   Frame state;
   for (const PlyBody& ply : scene.plies) {
@@ -136,7 +157,7 @@ Look run_once(int number, const Case& fast, const Case& data, int threads, const
   };
   run.interrupt = &ends;
   run.watch = hooks.watch;
-  run.frame = [&](const Frame& state) {
+  const auto look_at = [&](const Frame& state) {
     for (std::size_t p = 0; p < look.sizes.size(); ++p)
       if (look.sizes[p].empty()) {
         look.sizes[p].resize(state.plies[p].triangles.size());
@@ -146,17 +167,28 @@ Look run_once(int number, const Case& fast, const Case& data, int threads, const
     chords.lower(state, look.sizes);
     budget.foresee(state, look.sizes);
   };
-  run.glance = [&](const Scene& scene) { run.frame(places_of(scene)); };
+  run.frame = [&](const Frame& shown) { look_at(places_of(shown, meshes)); };
+  run.glance = [&](const Scene& scene) { look_at(places_of(scene)); };
   look.result = run_case(fast, threads, run, meshes);
   look.spent = look.spent && look.result.summary.status == "interrupted";
   return look;
 }
 
-void add_cost(const RunResult& result, Scouted& scouted) {
-  scouted.seconds += result.summary.wall_time_s;
-  for (const PlyFrame& ply : result.last.plies)
+void add_cost(const Look& look, Scouted& scouted) {
+  scouted.seconds += look.result.summary.wall_time_s;
+  for (const AskedSizes& sizes : look.sizes) // of each triangle
     scouted.work +=
-        static_cast<double>(ply.triangles.size()) * static_cast<double>(result.summary.steps);
+        static_cast<double>(sizes.size()) * static_cast<double>(look.result.summary.steps);
+}
+
+/// Gives the images of a part, which is shown as a whole, the sizes of its own triangles.
+void repeat_at_images(const Case& data, std::vector<AskedSizes>& sizes) {
+  const std::size_t parts = 1U << data.part_at.size();
+  for (AskedSizes& of : sizes) {
+    const std::size_t own = of.size();
+    for (std::size_t t = own; t < parts * own; ++t)
+      of.push_back(of[t - own]);
+  }
 }
 
 /// The largest ratio of an element of the scout to what is wanted in it.
@@ -209,7 +241,7 @@ Scouted scout(const Case& data, double shear_error, int threads, const ScoutHook
   for (int runs = 1; runs <= most_runs; ++runs) {
     Look look = run_once(runs, runs == 1 ? fast : finer(fast, scouted.sizes), data, threads, hooks,
                          scouted.work, budget);
-    add_cost(look.result, scouted);
+    add_cost(look, scouted);
     if (look.spent) scouted.ended = ended_early(look, fast, runs, scouted.work);
     if (look.spent && runs > 1) break; // what the run before has seen of all of it
     if (!look.spent && !ended(look.result.summary.status)) {
@@ -217,6 +249,7 @@ Scouted scout(const Case& data, double shear_error, int threads, const ScoutHook
       break;
     }
     const double coarse = coarseness(look);
+    repeat_at_images(fast, look.sizes);
     lower_to_shear(look.result.last, shear_error, finest_for_shear, look.sizes);
     scouted.sizes.clear();
     for (std::size_t p = 0; p < look.sizes.size(); ++p)

@@ -37,8 +37,10 @@ bool moves_as_image(const Tool& a, const Tool& b, const SymmetryPlane& plane) {
 }
 
 /// What breaks the plane at a tool; false if it is not nearly an image of any.
-bool look_at_tool(const WholeScene& scene, std::size_t t, const SymmetryPlane& plane,
-                  std::vector<std::string>& broken) {
+bool look_at_tool(const WholeScene& scene, std::size_t t, PlaneAhead& ahead) {
+  const SymmetryPlane& plane = ahead.plane;
+  std::vector<std::string>& broken = ahead.broken;
+  ahead.tools.push_back(static_cast<int>(t));
   const std::vector<Tool>& tools = scene.data.tools;
   const TriMesh& surface = scene.surfaces[t];
   Box3 box;
@@ -58,6 +60,7 @@ bool look_at_tool(const WholeScene& scene, std::size_t t, const SymmetryPlane& p
     if (beyond <= limit) beyond = off(std::numeric_limits<std::size_t>::max());
     if (beyond >= least) continue;
     least = beyond;
+    ahead.tools.back() = static_cast<int>(other);
     moves = moves_as_image(tools[t], tools[other], plane);
     if (least <= limit && moves) return true;
   }
@@ -152,11 +155,13 @@ bool is_image(const WholeScene& scene, const Boundary& boundary, const Boundary&
 
 void look_at_boundaries(const WholeScene& scene, PlaneAhead& ahead) {
   const std::vector<Boundary>& all = scene.data.boundaries;
-  for (const Boundary& boundary : all)
-    if (std::none_of(all.begin(), all.end(), [&](const Boundary& other) {
-          return is_image(scene, boundary, other, ahead.plane);
-        }))
-      ahead.broken.push_back(fmt::format("boundary {}", boundary.name));
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    std::size_t k = 0; // itself first
+    while (k < all.size() && !is_image(scene, all[b], all[(b + k) % all.size()], ahead.plane))
+      ++k;
+    ahead.boundaries.push_back(static_cast<int>((b + k) % all.size()));
+    if (k == all.size()) ahead.broken.push_back(fmt::format("boundary {}", all[b].name));
+  }
   if (std::abs(scene.data.gravity.dot(normal_of(ahead.plane))) > same * scene.data.gravity.norm())
     ahead.broken.emplace_back("gravity");
 }
@@ -164,7 +169,7 @@ void look_at_boundaries(const WholeScene& scene, PlaneAhead& ahead) {
 /// The plane with what breaks it; nothing if a tool or a blank is far from its image.
 std::optional<PlaneAhead> look_at(const WholeScene& scene, PlaneAhead ahead) {
   for (std::size_t t = 0; t < scene.data.tools.size(); ++t)
-    if (!look_at_tool(scene, t, ahead.plane, ahead.broken)) return std::nullopt;
+    if (!look_at_tool(scene, t, ahead)) return std::nullopt;
   look_at_boundaries(scene, ahead);
   for (std::size_t p = 0; p < scene.plies.size(); ++p)
     if (!look_at_ply(scene, p, ahead)) return std::nullopt;
@@ -255,8 +260,8 @@ std::vector<std::string> symmetry_ahead(const Case& data, const std::vector<Blan
   }
   if (!holding.empty())
     lines.insert(lines.begin(),
-                 fmt::format("symmetry: plane{} {} hold{}: {} of the blank, its outline ending on "
-                             "boundaries of kind symmetry, would form as the whole does",
+                 fmt::format("symmetry: plane{} {} hold{}: with symmetry = \"scene\" {} is "
+                             "modelled in the place of the whole",
                              holding.size() > 1 ? "s" : "", joined(holding, " and "),
                              holding.size() > 1 ? "" : "s",
                              holding.size() > 1 ? "a quarter" : "a half"));

@@ -16,6 +16,8 @@ struct PlaneAhead {
   std::string name;                 ///< "x = 0"
   std::vector<std::string> broken;  ///< by what, a sentence's rest each; empty: it holds
   std::vector<std::string> assumed; ///< what would have to be alike that differs by less than 5 %
+  /// Of each tool and boundary, its mirror image; itself where none is.
+  std::vector<int> tools = {}, boundaries = {};
 };
 
 /// Planes along x, along y and between them through the middle of the tools, that hold or nearly

@@ -228,7 +228,8 @@ double force_jitter(const Case& data, const Frame& last) {
     const Tool& tool = data.tools[t];
     if (tool.motion != Motion::force) continue;
     const double pushed = tool.programme.empty() ? tool.force : tool.programme.back().value;
-    most = std::max(most, std::abs(last.tools[t].force_N - pushed));
+    const auto parts = static_cast<double>(1U << data.part_at.size()); // shown is the whole
+    most = std::max(most, std::abs(last.tools[t].force_N - parts * pushed));
   }
   return most;
 }

@@ -108,9 +108,9 @@ class Case:
 
     file: a case file, or the folder of a `case.toml`.
     settings: values by key, as of `set`.
-    accuracy: "draft", "standard", "reference", or an rms error of the shear angle in degrees: picks
-        the cost parameters that `settings` do not give, as `--accuracy` does. Raises ValueError
-        for another word.
+    accuracy: "instant", "draft", "standard", "reference", or an rms error of the shear angle in
+        degrees: picks the cost parameters that `settings` do not give, as `--accuracy` does.
+        Raises ValueError for another word.
 
     The file is read when its contents are asked for, and then again if asked once more.
     """
@@ -125,10 +125,12 @@ class Case:
         self._accuracy: float | None = None
         for key, value in (settings or {}).items():
             self.set(key, value)
-        if isinstance(accuracy, str):
+        if accuracy == "instant":
+            self.set("accuracy.instant", True)
+        elif isinstance(accuracy, str):
             self._accuracy = _plyform.preset_error(accuracy)
             if self._accuracy <= 0.0:
-                raise ValueError(f"accuracy {accuracy!r} is none of draft, standard, reference")
+                raise ValueError(f"accuracy {accuracy!r} is none of instant, draft, standard, reference")
         elif accuracy is not None:
             self._accuracy = float(accuracy)
 

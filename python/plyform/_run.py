@@ -25,7 +25,7 @@ ProgressCallback = Callable[[Progress], Optional[bool]]
 #: Called with each output state, the first and the last included; False stops the run.
 FrameCallback = Callable[[Frame], Optional[bool]]
 
-_EXIT_CODES = {"done": 0, "doubtful": 0, "stopped": 3}
+_EXIT_CODES = {"done": 0, "doubtful": 0, "instant": 0, "stopped": 3}
 
 
 class Result:

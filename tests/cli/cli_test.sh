@@ -127,6 +127,15 @@ if ! grep -q '"status": "doubtful"' doubtful/summary.json; then
   failures=$((failures + 1))
 fi
 
+# Each ply alone; a quarter in the place of the whole, with a note of it.
+expect 0 'instant: each ply was formed alone' run cases/hemisphere_two_ply --accuracy instant -o first
+expect 0 'shear_angle_deg' difference first first
+expect 2 'forms each ply alone, which says nothing of this case' run cases/circular_table --accuracy instant \
+  -o none
+expect 0 'a quarter is modelled, cut at x = 0 and y = 0' run cases/hemisphere_0 --set symmetry=scene \
+  --set solver.duration=0.005 --set blanks.square.element_size=20 --set blanks.square.mesh_from=element_size \
+  -o quarter
+
 # A shipped case checks without warnings, at the accuracy that it has.
 for name in hemisphere_0 hemisphere_45 hemisphere_two_ply hemisphere_five_ply square_box circular_table \
   bias_extension picture_frame; do

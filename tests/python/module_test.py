@@ -81,6 +81,8 @@ def check_values(_):
     said = str(raised(ValueError, simulation.run))
     assert "ply ply: positions of node 7 are" in said, said
     raised(ValueError, plyform.Case, HEMISPHERE, accuracy="rough")
+    first = plyform.run(plyform.Case(HEMISPHERE, accuracy="instant"))
+    assert first.status == "instant" and len(first.plies) == 1, first.status
     squares = {"blanks.square.mesh_from": "element_size", "blanks.square.element_size": 6.8}
     outlook = plyform.Case(HEMISPHERE, {"ply.0.angle": 45.0, **squares}).outlook(threads=1)
     told = subprocess.run([program, "check", HEMISPHERE, "--set", "ply.0.angle=45",

@@ -31,6 +31,7 @@ PreparedCase load_case(const CaseArguments& arguments) {
   }
   if (const double error = preset_error(arguments.accuracy); error > 0.0)
     overrides.emplace_back("accuracy.shear_deg", fmt::format("{}", error));
+  if (arguments.accuracy == "instant") overrides.emplace_back("accuracy.instant", "true");
   PreparedCase prepared =
       prepare_case(file, overrides, arguments.yes_large ? CaseSize::any : CaseSize::sensible);
   for (const std::string& warning : prepared.warnings)

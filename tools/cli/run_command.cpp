@@ -192,7 +192,8 @@ int tell_end(const Summary& summary, const std::filesystem::path& folder) {
                "plyform: {}\n         the state reached is in {}; the same command with --resume "
                "goes on\n",
                summary.message, folder.string());
-  if (summary.status == "doubtful") fmt::print(stderr, "plyform: doubtful: {}\n", summary.message);
+  if (summary.status == "doubtful" || summary.status == "instant")
+    fmt::print(stderr, "plyform: {}: {}\n", summary.status, summary.message);
   return ended(summary.status) ? exit_done : exit_other;
 }
 
@@ -344,7 +345,7 @@ int run_command(const RunArguments& arguments) {
   RunResult result = run_and_write(prepared, threads, writer, resume,
                                    verified ? &options.trace : nullptr, *file, *picture);
   picture.reset();
-  if (verified && ended(result.summary.status))
+  if (verified && ended(result.summary.status) && !prepared.value->accuracy.instant)
     verify_and_correct(prepared, options, writer, result);
   file.reset();
   print_outcome(result, folder);

@@ -2,10 +2,12 @@
 #include "tools/cli/verify_and_correct.hpp"
 
 #include "core/results/replace_run.hpp"
+#include "core/setup/part_of_scene.hpp"
 #include "core/setup/run_prepared.hpp"
 #include "core/setup/size_ahead.hpp"
 #include "core/verification/correction.hpp"
 #include "core/verification/verify.hpp"
+#include "core/verification/whole_run.hpp"
 #include "tools/cli/progress_line.hpp"
 
 #include <algorithm>
@@ -27,6 +29,14 @@ void print_figure(const VerifiedFigure& f) {
              f.name, f.value, f.unit,
              f.band ? fmt::format("+- {:.2g}", *f.band) : std::string("has no band"),
              part_text(f.mesh), part_text(f.inertia), part_text(f.softening), part_text(f.chance));
+}
+
+void print_whole(const WholeRun& w) {
+  fmt::print(
+      "    the whole, started {:.2g} mm off its symmetry, differs by {:.2g} deg rms in shear, "
+      "and has wrinkles of {:.2g} mm in {} where {:.2g} are shown: {}\n",
+      w.moved_mm, w.shear_deg, w.wrinkle_mm, w.ply, w.shown_wrinkle_mm,
+      w.breaks ? "waves break the symmetry" : "the symmetry holds");
 }
 
 void print_parting(const Parting& p) {
@@ -117,6 +127,20 @@ void run_again(const PreparedCase& prepared, const VerifyOptions& options,
   result.summary.verification.asked = said;
 }
 
+/// Runs the whole of a part, and doubts the part if waves break its symmetry.
+void look_at_whole(const PreparedCase& prepared, int threads, const VerifyHooks& hooks,
+                   RunResult& result) {
+  Summary& summary = result.summary;
+  summary.verification.whole =
+      run_whole(whole_of(prepared), result, summary.verification.shear.band, threads, hooks);
+  if (!summary.verification.whole) return;
+  const std::string doubt = doubt_of_symmetry(*summary.verification.whole);
+  if (doubt.empty()) return;
+  summary.doubts.push_back(doubt);
+  summary.work.missing.insert(summary.work.missing.begin(), doubt);
+  if (summary.status == "done") summary.status = "doubtful", summary.message = doubt;
+}
+
 } // namespace
 
 void verify_and_correct(const PreparedCase& prepared, const VerifyOptions& options,
@@ -144,6 +168,8 @@ void verify_and_correct(const PreparedCase& prepared, const VerifyOptions& optio
     return;
   }
   result.summary.verification = *verification;
+  if (prepared.whole) look_at_whole(prepared, options.threads, hooks, result);
+  line.end();
   if (!(data.accuracy.shear_error > 0.0)) {
     writer.write_summary(result.last, result.summary);
     return;
@@ -169,6 +195,7 @@ void print_verification(const Verification& v) {
   for (const VerifiedFigure& f : v.figures)
     print_figure(f);
   if (v.asked) print_asked(*v.asked);
+  if (v.whole) print_whole(*v.whole);
   for (const Parting& parting : v.partings)
     print_parting(parting);
   for (const std::string& what : v.left_out)

@@ -33,6 +33,9 @@ inline constexpr Choice<Motion> motion_choices[] = {
 inline constexpr Choice<SelfContact> self_choices[] = {
     {"auto", SelfContact::automatic}, {"off", SelfContact::off}, {"on", SelfContact::on}};
 
+inline constexpr Choice<Symmetry> symmetry_choices[] = {
+    {"none", Symmetry::none}, {"scene", Symmetry::scene}, {"alike", Symmetry::alike}};
+
 /// The words, in the order of the table.
 template <class Value, std::size_t count>
 std::vector<std::string> words_of(const Choice<Value> (&choices)[count]) {

@@ -233,7 +233,14 @@ Rows accuracy_rows() {
            .fallback = "false",
            .meaning = "whether siblings with coarser parameters run after the run and give each "
                       "figure its band, as `plyform run --verify`",
-           .members = {to(&AccuracyOptions::verify)}}};
+           .members = {to(&AccuracyOptions::verify)}},
+          {.key = "accuracy.instant",
+           .kind = K::boolean,
+           .fallback = "false",
+           .meaning = "whether each ply is formed alone between the tools, coarse and fast, for a "
+                      "first answer to some 4 degrees without forces, as `plyform run --accuracy "
+                      "instant`",
+           .members = {to(&AccuracyOptions::instant)}}};
 }
 
 constexpr FurtherPart further_parts[] = {{load_rows, read_loads},
@@ -253,7 +260,15 @@ Rows all_rows() {
              .usual = {{.least = -1e5, .most = 1e5}},
              .count = 3,
              .meaning = "acceleration by gravity, [0, 0, -9810] for plies that lie flat on earth",
-             .members = {to(&Case::gravity)}}};
+             .members = {to(&Case::gravity)}},
+            {.key = "symmetry",
+             .kind = K::choice,
+             .fallback = "\"none\"",
+             .choices = words_of(symmetry_choices),
+             .meaning = "scene: models the half or quarter that planes of symmetry of the scene "
+                        "leave, and shows the whole; alike: also where families of yarns that "
+                        "differ by less than 5 % have to be taken as one",
+             .members = {to(&Case::symmetry, symmetry_choices)}}};
   append(rows, fabric_rows());
   append(rows, blank_rows());
   append(rows, ply_rows());

@@ -168,7 +168,7 @@ TEST_F(ResultsExport, DamagedBytesAreRefusedOrRead) {
   const fs::path path = directory / "results.h5";
   const std::string whole = content(path);
   std::size_t refused = 0;
-  const std::size_t stride = std::max<std::size_t>(1, whole.size() / 400);
+  const std::size_t stride = std::max<std::size_t>(1, whole.size() / 200);
   for (std::size_t at = 0; at < whole.size(); at += stride)
     for (const char by : {'\xff', '\0'}) {
       std::string damaged = whole;

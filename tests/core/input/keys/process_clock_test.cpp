@@ -17,7 +17,7 @@ TEST(ProcessClock, IsReadAndSaidToDoNothingWithoutRates) {
   std::string warnings;
   for (const std::string& warning : read.warnings)
     warnings += warning + "\n";
-  EXPECT_NE(warnings.find("accuracy.toml:43:12: warning: process.duration = 20.0: does nothing, as "
+  EXPECT_NE(warnings.find("accuracy.toml:45:12: warning: process.duration = 20.0: does nothing, as "
                           "no law of these fabrics depends on rates"),
             std::string::npos)
       << warnings;
