@@ -57,7 +57,7 @@ faults=(
   "opening between yarns is the change of area | core/run/output_state.cpp | s/now \/ before \/ (1.0 + family.strain\[e\]) - 1.0/now \/ before - 1.0/"
   "bending beyond a plane of symmetry pulls the wrong way | core/ply/bending_simd_kernel.cpp | s/mirror_images(block, false, force);//"
   "the shear of an image keeps its sign | core/run/whole_frame.cpp | s/return {c, first.sign \* second.sign};/return {c, 1.0};/"
-  "a part is pressed by the force on the whole | core/setup/part_of_scene.cpp | s/tool.force \/= 2.0/tool.force \/= 1.0/"
+  "a part is pressed by the force on the whole | core/setup/part_of_scene.cpp | s/divide_forces(tool, 2.0)/divide_forces(tool, 1.0)/"
   "plies alone have the room of the whole stack | core/setup/instant.cpp | s/tool_clearance.push_back(others.thickness)/tool_clearance.push_back(0.0 * others.thickness)/"
 )
 filter='*Contact*:*Oracle*:*Ridges*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeEdgeContact*:*Stitch*:*Shear*:*Crimp*:Families*:ClosedMould*:Compaction*:MembraneSimd*:*Friction*:Enclosure*:BendingSimd*:PartOfScene*:Instant*'

@@ -21,11 +21,7 @@ struct CutSide {
     return centre + Eigen::Rotation2Dd(turn * share * sweep(to)) * (from - centre);
   }
   /// Angle (rad) from its begin to a point on it.
-  double sweep(const Vec2& p) const {
-    const Vec2 u = from - centre, v = p - centre;
-    const double angle = std::atan2(turn * cross(u, v), u.dot(v));
-    return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
-  }
+  double sweep(const Vec2& p) const { return sweep_of(centre, turn, from, p); }
 };
 
 using CutLoop = std::vector<CutSide>;

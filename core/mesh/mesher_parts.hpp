@@ -5,6 +5,7 @@
 #include "core/mesh/mesh_blank.hpp"
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -17,6 +18,13 @@ using Edge = std::array<std::int32_t, 2>;
 /// z component of a x b.
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Angle (rad) from p to q about the centre of an arc, in the direction of its turn, above 0.
+inline double sweep_of(const Vec2& centre, int turn, const Vec2& p, const Vec2& q) {
+  const Vec2 u = p - centre, v = q - centre;
+  const double angle = std::atan2(turn * cross(u, v), u.dot(v));
+  return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
 }
 
 /// The middle of a piece of an arc from p to q about `centre`, mm. The radii of both ends may

@@ -11,13 +11,6 @@
 namespace plyform {
 namespace {
 
-/// Angle (rad) from p to q about the arc's centre, in the direction of its turn, above 0.
-double sweep_of(const OutlineArc& arc, const Vec2& p, const Vec2& q) {
-  const Vec2 u = p - arc.centre, v = q - arc.centre;
-  const double angle = std::atan2(arc.turn * cross(u, v), u.dot(v));
-  return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
-}
-
 const std::vector<Vec2>& corners_of(const Outline& outline, int hole) {
   return hole < 0 ? outline.boundary : outline.holes[static_cast<std::size_t>(hole)];
 }
@@ -67,7 +60,7 @@ double signed_area(const Outline& outline, int hole) {
   for (const OutlineArc& arc : outline.arcs) {
     if (arc.hole != hole) continue;
     const Vec2 &p = loop[arc.side], &q = loop[(arc.side + 1) % loop.size()];
-    const double angle = sweep_of(arc, p, q), r2 = (p - arc.centre).squaredNorm();
+    const double angle = sweep_of(arc.centre, arc.turn, p, q), r2 = (p - arc.centre).squaredNorm();
     twice += arc.turn * r2 * (angle - std::sin(angle)); // the segment between chord and arc
   }
   return 0.5 * twice;
@@ -85,7 +78,8 @@ void append_loop(Outline& outline, const Profile& chain) {
       continue;
     }
     OutlineArc arc{hole, 0, s.centre, s.turn};
-    const double angle = s.a == s.b ? 2.0 * std::numbers::pi : sweep_of(arc, s.a, s.b);
+    const double angle =
+        s.a == s.b ? 2.0 * std::numbers::pi : sweep_of(arc.centre, arc.turn, s.a, s.b);
     const int n = std::max(1, static_cast<int>(std::ceil(angle / (0.5 * std::numbers::pi) - 1e-9)));
     for (int i = 0; i < n; ++i) {
       arc.side = corners.size();
@@ -162,7 +156,8 @@ std::vector<SampledSide> sample_sides(const Outline& outline, int hole, double s
     }
     // The radii of both ends may differ by the rounding of a drawing's numbers.
     const Vec2 u = p - arc->centre;
-    const double angle = sweep_of(*arc, p, q), ratio = (q - arc->centre).norm() / u.norm();
+    const double angle = sweep_of(arc->centre, arc->turn, p, q),
+                 ratio = (q - arc->centre).norm() / u.norm();
     const int n = std::max(pieces(angle * u.norm()),
                            static_cast<int>(std::ceil(angle / largest_turn - 1e-9)));
     points.push_back(p);

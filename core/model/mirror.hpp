@@ -31,6 +31,11 @@ struct Mirror {
 /// numbers in it.
 std::vector<Mirror> images_at(const std::vector<SymmetryPlane>& planes);
 
+/// How many such images the whole of a case has, of which a part may be modelled.
+inline std::size_t parts_of(const Case& data) {
+  return std::size_t{1} << data.part_at.size();
+}
+
 /// The planes of symmetry of a ply: none where they are not at right angles to each other.
 std::vector<SymmetryPlane> planes_of(const std::vector<Boundary>& boundaries, int ply);
 

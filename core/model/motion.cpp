@@ -120,6 +120,20 @@ std::vector<Enclosure> enclosures_of(const Case& data) {
   return found;
 }
 
+void divide_forces(Tool& tool, double by) {
+  if (tool.motion != Motion::force) return;
+  tool.force /= by, tool.mass /= by;
+  for (Stage& stage : tool.programme)
+    stage.value /= by;
+}
+
+void divide_forces(Gripper& gripper, double by) {
+  gripper.force /= by, gripper.mass /= by, gripper.stiffness /= by;
+  if (gripper.stiffness > 0.0) return; // its programme is of strokes
+  for (Stage& stage : gripper.programme)
+    stage.value /= by;
+}
+
 double force_share(double t, double duration) {
   return smooth_step(1.0, t, force_rise * duration);
 }

@@ -58,6 +58,11 @@ struct Enclosure {
 /// Of each [[load]] that has `between`; they point into Case::loads.
 std::vector<Enclosure> enclosures_of(const Case& data);
 
+/// Leaves a tool that is pushed, or a gripper, 1 / `by` of what pushes or drives it and of its
+/// mass.
+void divide_forces(Tool& tool, double by);
+void divide_forces(Gripper& gripper, double by);
+
 /// Share of a force that has come up at time t (s) where it has no programme: of the preload of a
 /// spring.
 double force_share(double t, double duration);

@@ -3,6 +3,7 @@
 
 #include "base/format.hpp"
 #include "base/time_left.hpp"
+#include "core/model/mirror.hpp"
 #include "core/model/motion.hpp"
 #include "core/run/checkpoint.hpp"
 #include "core/run/densest_packing.hpp"
@@ -168,7 +169,7 @@ private:
                 last.boundaries.size() == static_cast<std::size_t>(told) && last.step <= s_.step;
     for (std::size_t p = 0; fits && p < s_.plies.size(); ++p) {
       const std::vector<Triangle>& own = s_.plies[p].membrane.triangles;
-      const std::size_t nodes = s_.plies[p].x0.size(), parts = 1U << s_.data.part_at.size();
+      const std::size_t nodes = s_.plies[p].x0.size(), parts = parts_of(s_.data);
       fits = last.plies[p].name == s_.plies[p].name &&
              last.plies[p].x0.size() == (whole_ ? whole_->nodes(p) : nodes) &&
              last.plies[p].triangles.size() == parts * own.size() &&

@@ -8,6 +8,7 @@
 #include "core/input/checks/initial_scene.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/boundary.hpp"
+#include "core/model/motion.hpp"
 #include "core/setup/part_of_scene.hpp"
 
 #include <algorithm>
@@ -120,20 +121,10 @@ void stand_for_stack(const Case& stack, std::size_t p, const std::vector<char>& 
         alone.friction.law[place] = stack.friction.law_of(one, next);
       }
     }
-    Tool& tool = alone.tools[t];
-    if (tool.motion != Motion::force) continue;
-    tool.force /= share, tool.mass /= share;
-    for (Stage& stage : tool.programme)
-      stage.value /= share;
+    divide_forces(alone.tools[t], share);
   }
   for (Boundary& b : alone.boundaries)
-    if (b.ply < 0 && b.is<Gripper>()) {
-      auto& gripper = b.as<Gripper>();
-      gripper.force /= share, gripper.mass /= share, gripper.stiffness /= share;
-      if (gripper.stiffness == 0.0)
-        for (Stage& stage : gripper.programme)
-          stage.value /= share;
-    }
+    if (b.ply < 0 && b.is<Gripper>()) divide_forces(b.as<Gripper>(), share);
 }
 
 /// Gives a blank elements `by` times as large, or those where the first driven tool is pressed into

@@ -8,6 +8,7 @@
 #include "core/model/bending_resolution.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/model/fabric_freedoms.hpp"
+#include "core/model/mirror.hpp"
 #include "core/model/motion.hpp"
 #include "core/run/facet_penetration.hpp"
 #include "core/setup/boundaries_ahead.hpp"
@@ -154,11 +155,11 @@ void describe_way(const Scene& s, std::size_t tool, const std::vector<FlatPly>& 
 }
 
 /// parts: of the whole that is shown.
-std::string motion_text(const Tool& t, double parts) {
+std::string motion_text(const Tool& t, std::size_t parts) {
   if (t.motion == Motion::fixed) return "fixed";
   const bool driven = t.motion == Motion::driven;
   std::string text = driven ? fmt::format("driven {:g} mm", t.stroke)
-                            : fmt::format("pushed by {:g} N", parts * t.force);
+                            : fmt::format("pushed by {:g} N", static_cast<double>(parts) * t.force);
   if (!t.programme.empty())
     text += fmt::format(" at most, in {} {}", t.programme.size(),
                         t.programme.size() == 1 ? "stage" : "stages");
@@ -177,7 +178,7 @@ void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, bool m
   for (std::size_t i = 0; i < s.tools.size(); ++i) {
     const ToolState& t = s.tools[i];
     const double radius = smallest_radius(t.body.shape);
-    say(lines, "tool {}: {}{}", t.name, motion_text(s.data.tools[i], 1U << s.data.part_at.size()),
+    say(lines, "tool {}: {}{}", t.name, motion_text(s.data.tools[i], parts_of(s.data)),
         std::isfinite(radius) ? fmt::format(", smallest radius {:.4g} mm", radius) : std::string());
     describe_way(s, i, plies, reach + s.data.tools[i].position.norm(), lines);
     if (!mesh_to_come) describe_cut(s, i, lines);

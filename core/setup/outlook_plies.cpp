@@ -142,7 +142,7 @@ void describe_wrinkles(const Scene& s, Lines& lines) {
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const Ply& ply = s.data.plies[p];
     if (!seen.emplace(ply.fabric, ply.blank).second) continue;
-    const double parts = 1U << s.data.part_at.size();
+    const auto parts = static_cast<double>(parts_of(s.data));
     const double area = area_of(s.plies[p]), h = element_size(s.plies[p]);
     const auto wave = bending_lengths(s.plies[p].membrane.fabric, force / area).upwards;
     if (!wave || *wave >= elements_in_wave * h) continue;

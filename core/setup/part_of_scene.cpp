@@ -7,6 +7,7 @@
 #include "core/mesh/cut_outline.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/boundary.hpp"
+#include "core/model/motion.hpp"
 #include "core/setup/symmetry_ahead.hpp"
 
 #include <algorithm>
@@ -38,25 +39,13 @@ std::vector<PlaneAhead> chosen(const std::vector<PlaneAhead>& planes) {
   return planes.empty() ? planes : std::vector<PlaneAhead>{planes.front()};
 }
 
-/// Takes their share of a stage's forces.
-void divide(std::vector<Stage>& programme, double by) {
-  for (Stage& stage : programme)
-    stage.value /= by;
-}
-
 /// Gives tools and grippers that are their own images the half of what pushes them.
 void share_forces(Case& data, const PlaneAhead& ahead) {
-  for (Tool& tool : data.tools) {
-    if (tool.motion != Motion::force) continue;
-    tool.force /= 2.0, tool.mass /= 2.0;
-    divide(tool.programme, 2.0);
-  }
-  for (std::size_t b = 0; b < data.boundaries.size(); ++b) {
-    if (!data.boundaries[b].is<Gripper>() || at(ahead.boundaries[b]) != b) continue;
-    auto& gripper = data.boundaries[b].as<Gripper>();
-    gripper.force /= 2.0, gripper.mass /= 2.0, gripper.stiffness /= 2.0;
-    if (gripper.stiffness == 0.0) divide(gripper.programme, 2.0); // of force
-  }
+  for (Tool& tool : data.tools)
+    divide_forces(tool, 2.0);
+  for (std::size_t b = 0; b < data.boundaries.size(); ++b)
+    if (data.boundaries[b].is<Gripper>() && at(ahead.boundaries[b]) == b)
+      divide_forces(data.boundaries[b].as<Gripper>(), 2.0);
 }
 
 /// The blank of a ply on the side of a plane to which its normal points.

@@ -6,6 +6,7 @@
 #include "core/mesh/mesh_blank.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/boundary.hpp"
+#include "core/model/mirror.hpp"
 #include "core/setup/chord_sizes.hpp"
 #include "core/setup/shear_sizes.hpp"
 #include "core/setup/size_ahead.hpp"
@@ -183,7 +184,7 @@ void add_cost(const Look& look, Scouted& scouted) {
 
 /// Gives the images of a part, which is shown as a whole, the sizes of its own triangles.
 void repeat_at_images(const Case& data, std::vector<AskedSizes>& sizes) {
-  const std::size_t parts = 1U << data.part_at.size();
+  const std::size_t parts = parts_of(data);
   for (AskedSizes& of : sizes) {
     const std::size_t own = of.size();
     for (std::size_t t = own; t < parts * own; ++t)

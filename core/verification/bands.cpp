@@ -2,6 +2,7 @@
 #include "core/verification/bands.hpp"
 
 #include "base/format.hpp"
+#include "core/model/mirror.hpp"
 #include "core/results/field_difference.hpp"
 
 #include <algorithm>
@@ -228,7 +229,7 @@ double force_jitter(const Case& data, const Frame& last) {
     const Tool& tool = data.tools[t];
     if (tool.motion != Motion::force) continue;
     const double pushed = tool.programme.empty() ? tool.force : tool.programme.back().value;
-    const auto parts = static_cast<double>(1U << data.part_at.size()); // shown is the whole
+    const auto parts = static_cast<double>(parts_of(data)); // shown is the whole
     most = std::max(most, std::abs(last.tools[t].force_N - parts * pushed));
   }
   return most;
