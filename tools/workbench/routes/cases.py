@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Routes of the folder and its cases: api/folder, cases, examples, case, keys, check, scene."""
+"""Routes of the folder and its cases: api/folder, cases, examples, case, keys, check,
+scene, instant."""
 
 import threading
 from collections.abc import Callable
@@ -87,3 +88,7 @@ def add_reading(router: APIRouter, reading: CaseReading) -> None:
     def scene(path: str, version: str, draft: bool = False) -> Response:
         content = reading.draft(path, version) if draft else reading.scene(path, version)
         return Response(content, media_type="application/octet-stream")
+
+    @router.get("/instant")
+    def instant(path: str, version: str, key: str = "", value: float | None = None) -> Response:
+        return Response(reading.instant(path, version, key, value), media_type="application/octet-stream")

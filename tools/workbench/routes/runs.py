@@ -24,7 +24,7 @@ from ..studio import Studio
 
 PERIOD = 0.5  # s, of telling how far runs are
 BYTES = "application/octet-stream"
-ACCURACIES = ("", "draft", "standard", "reference")
+ACCURACIES = ("", "instant", "draft", "standard", "reference")
 MOST_THREADS = 256
 PATIENCE = (0.1, 0.3, 0.6)  # s, between tries to read what a run may just be writing
 
@@ -143,7 +143,7 @@ def wish_of(body: dict) -> dict:
     if not isinstance(wish["case"], str) or not wish["case"]:
         raise Refused("choose a case", 422)
     if not isinstance(wish["name"], str) or wish["accuracy"] not in ACCURACIES:
-        raise Refused("accuracy: none, draft, standard or reference", 422)
+        raise Refused("accuracy: none, instant, draft, standard or reference", 422)
     if type(wish["threads"]) is not int or not 1 <= wish["threads"] <= MOST_THREADS:
         raise Refused(f"threads: 1 to {MOST_THREADS}", 422)
     if type(wish["verify"]) is not bool:

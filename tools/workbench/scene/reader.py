@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A process beside the workbench that reads cases with the program's own code: reader.py TOOLS MODULE LIMIT.
 Requests come as lines of JSON, answers go as two lengths (uint32 of the JSON, uint64 of the bytes) and both.
-It may go down on any file, or never come back: readers.py, which starts it, then starts another."""
+It may go down on any file, or never come back: readers.py, which starts it, then starts another. SIGUSR1
+says that nobody waits for an answer any more."""
 
 import hashlib
 import json
@@ -13,12 +14,15 @@ import threading
 import time
 from pathlib import Path
 
+NEWER = threading.Event()  # a newer request waits
+
 
 def main() -> None:
     sys.path[:0] = [sys.argv[1], sys.argv[2]]
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is no answer
     threading.Thread(target=end_with_parent, args=(os.getppid(),), daemon=True).start()
+    signal.signal(signal.SIGUSR1, lambda *_: NEWER.set())
     from workbench.scene.scene_bytes import finite
     try:
         import plyform
@@ -26,6 +30,7 @@ def main() -> None:
         plyform, missing = None, f"Python's module cannot be loaded: {problem}"
     for line in sys.stdin.buffer:
         request = json.loads(line)
+        NEWER.clear()
         signal.setitimer(signal.ITIMER_REAL, float(sys.argv[3]))  # also where no other thread gets a turn any more
         try:
             if plyform is None:
@@ -93,7 +98,23 @@ def outlook(plyform, request: dict) -> tuple[dict, bytes]:
                         "estimated_s": found.estimated_s, "stop": found.stop}}, b""
 
 
-ACTS = {"scene": scene, "draft": draft, "check": check, "outlook": outlook}
+def instant(plyform, request: dict) -> tuple[dict, bytes]:
+    """The plies, each formed alone, of a case with some values changed. Says why if it cannot be, and
+    `newer` if it was ended."""
+    from workbench.scene.scene_bytes import formed_bytes
+    case = plyform.Case(request["file"], request["settings"], accuracy="instant")
+    try:
+        result = plyform.run(case, request["threads"], progress=lambda _: not NEWER.is_set())
+    except plyform.CaseError as problem:
+        return {"why": str(problem.mistakes[0])[:2000]}, b""
+    except plyform.Error as problem:
+        return {"why": str(problem)[:2000]}, b""
+    if result.status == "interrupted":
+        return {"newer": True}, b""
+    return {}, formed_bytes(result)
+
+
+ACTS = {"scene": scene, "draft": draft, "check": check, "outlook": outlook, "instant": instant}
 
 if __name__ == "__main__":
     main()

@@ -34,9 +34,11 @@ def stamps_of(module: Path) -> list:
 
 
 class Worker:
-    """Answers one request after the other. A newer request of the same file ends an older one."""
+    """Answers one request after the other. A newer request of the same file ends an older one. asks: it is
+    asked to end, as it goes on for long but looks whether it shall; else the process is ended."""
 
-    def __init__(self, module: Path, limit: float = LIMIT, nice: int = 0):
+    def __init__(self, module: Path, limit: float = LIMIT, nice: int = 0, asks: bool = False):
+        self.asks = asks
         self.command = [sys.executable, "-sP", str(WORKER), str(TOOLS), str(module), f"{limit + LATER:g}"]
         self.limit, self.nice, self.module = limit, nice, module
         self.loaded: list = []  # stamps of the module's files, as the process began
@@ -92,7 +94,10 @@ class Worker:
         with self.state:
             if self.asked and self.asked["what"] == what and self.asked["request"] != request == self.newest[what] \
                     and time.monotonic() - self.asked["since"] > PATIENCE:
-                self.end("newer")
+                if self.asks and self.process:
+                    self.process.send_signal(signal.SIGUSR1)
+                else:
+                    self.end("newer")
 
     def end(self, why: str) -> None:
         """Of what it does now."""
@@ -152,17 +157,18 @@ class Worker:
 
 
 class Workers:
-    """One for pictures, one for the first of them, which come at once, one for checks, which may run a scout,
-    one for outlooks, which take steps."""
+    """One for pictures, one for the first of them, which come at once, one for checks, one for outlooks, which
+    take steps, one for plies that are formed."""
 
     def __init__(self, module: Path):
         self.scene, self.draft, self.check = Worker(module), Worker(module), Worker(module)
         self.outlook = Worker(module, LONG, nice=10)
+        self.instant = Worker(module, asks=True)
 
     def warm(self) -> None:
         for worker in (self.draft, self.scene, self.check):
             worker.start()
 
     def stop(self) -> None:
-        for worker in (self.scene, self.check, self.outlook):
+        for worker in (self.scene, self.draft, self.check, self.outlook, self.instant):
             worker.stop()

@@ -3,6 +3,7 @@
 beside the workbench, kept as long as no file of the case changes."""
 
 import os
+import re
 import shutil
 import threading
 from pathlib import Path
@@ -20,6 +21,7 @@ MOST_KEPT = 20
 NO_FILE = 0, 0, 0  # the stamp of one that is missing
 DRAFTS = "drafts"  # files of the workbench's own
 MOST_FOLLOWED = 50
+OF_A_PLY = re.compile(r"ply\.\d{1,4}\.(angle|rotation|z)")
 PERIOD = 0.5  # s between two looks at the files of cases that pages look at
 
 
@@ -91,6 +93,15 @@ class CaseReading:
                 answer["outlook"] = known["outlook"]
         return answer
 
+    def instant(self, name: str, version: str, key: str, value: float | None) -> bytes:
+        """How the plies will be formed, each alone; with another value of a key of a ply, where one is given."""
+        if key and not OF_A_PLY.fullmatch(key):
+            raise Refused("only angles, rotations and heights of plies are tried", 422)
+        name, stamp, path = self.asked(name, version)
+        settings = {key: value} if key else {}
+        return self.once(("instant", name), (*stamp, key, value), lambda: self.bytes_of(
+            self.workers.instant, "instant", path, stamp, settings=settings, threads=len(os.sched_getaffinity(0))))
+
     def look_ahead(self, name: str, version: str, stamp: tuple, path: Path) -> None:
         """Tells {kind: "outlook", path, version, outlook} when it is known."""
         try:
@@ -119,6 +130,10 @@ class CaseReading:
         if self.stamp(path) != stamp:  # then it may have failed for that
             raise Refused("a file of the case has changed meanwhile", 409)
         self.without_fault(said)
+        if "newer" in said:
+            raise Refused("the case has changed meanwhile", 409)
+        if "why" in said and "outlook" not in said:
+            raise Refused(said["why"], 422)
 
     @staticmethod
     def without_fault(said: dict) -> None:

@@ -52,6 +52,21 @@ def scene_bytes(scene, version: str, stand_ins: dict[int, StandIn] | None = None
     return arrays.packed(finite(header))
 
 
+def formed_bytes(result) -> bytes:
+    """Of a plyform.Result, as live_states.state gives one, with meshes: {told_deg, plies: [{name, key, x0, x,
+    triangles, field, p99_deg}], tools: [{name, shift}]}; field: the shear angle of each triangle, degrees."""
+    arrays = Arrays()
+    summary = result.summary
+    return arrays.packed(finite({
+        "told_deg": summary["accuracy"]["promised_shear_error_deg"],
+        "plies": [{"name": ply.name, "key": f"ply.{number}", "x0": arrays.add(np.asarray(ply.x0)),
+                   "x": arrays.add(np.asarray(ply.x)), "triangles": arrays.add(np.asarray(ply.triangles)),
+                   "field": arrays.add(np.asarray(ply.shear_angle_deg)),
+                   "p99_deg": summary["plies"][number]["p99_shear_deg"]}
+                  for number, ply in enumerate(result.plies)],
+        "tools": [{"name": tool.name, "shift": tool.displacement_mm} for tool in result.tools]}))
+
+
 def ply_part(ply, number: int, arrays: Arrays) -> dict:
     return {"name": ply.name, "key": f"ply.{number}", "fabric": ply.fabric, "blank": ply.blank,
             "angle_deg": ply.angle_deg, "thickness_mm": ply.thickness_mm, "coarser": ply.coarser,

@@ -5,6 +5,7 @@ import { element } from "workbench/page/elements.js";
 import { withoutKey } from "workbench/page/faults.js";
 import { unpacked } from "workbench/page/packed.js";
 import { sceneControls, strokeControl } from "workbench/scene/controls.js";
+import { InstantShear } from "workbench/scene/instant.js";
 import { SceneView } from "workbench/scene/view.js";
 import { askBytes } from "workbench/page/server.js";
 
@@ -66,8 +67,11 @@ export class SceneArea {
     this.view = new SceneView(this.room, { ...acts, measured: (words) => { this.measured.textContent = words; } });
     this.stroke = strokeControl(this.view);
     this.stroke.append(this.measured);
-    place.append(sceneControls(this.view), this.room, this.stroke);
+    const controls = sceneControls(this.view);
+    place.append(controls, this.room, this.stroke);
     this.room.append(this.note);
+    this.instant = new InstantShear(this.room);
+    controls.firstElementChild.append(this.instant.toggle);
   }
 
   /** The scene of a version of a case, shown; null if there is none, and then the last one stays. A draft
@@ -98,6 +102,7 @@ export class SceneArea {
     const notes = scene.draft ? ["tools of many facets are being looked at: gaps and first contacts follow"] : [];
     if (missing.length) notes.push(`not drawn: ${missing.join("; ")}`);
     this.say(notes.join("; "));
+    this.instant.ask({ path, version });
     return scene;
   }
 
@@ -105,6 +110,7 @@ export class SceneArea {
   clear() {
     this.scene = null;
     this.callouts = [];
+    this.instant.clear();
     this.room.classList.add("nothing");
     this.say("");
   }
@@ -122,6 +128,7 @@ export class SceneArea {
   choose(item) {
     this.chosen = item;
     this.view.handle(item.startsWith("ply.") ? item : null);
+    this.instant.choose(item);
   }
 
   /** Marks bodies that are chosen or have mistakes, and writes the mistakes beside them. */

@@ -51,6 +51,7 @@ export function askRun(path, count) {
     { name: "name", title: "Name of the results", kind: "text", hint: "after the case",
       note: "letters, digits, _, - and .; a name that is free if you give none" },
     { name: "accuracy", title: "Accuracy", kind: "select", choices: [["", "as the case has it"],
+      ["instant", "instant: plies alone, at once"],
       ["draft", "draft: shear angles to 3°"], ["standard", "standard: 1°"], ["reference", "reference: 0.3°"]] },
     { name: "threads", title: "Threads", kind: "number", hint: "all", note: "results do not depend on it" },
     { name: "budget", title: "Budget", kind: "number", unit: "s", hint: "none",

@@ -338,6 +338,7 @@ class Setup {
     const wheel = this.form.fields.querySelector(".dial");
     if (wheel && wheel.dataset.dial === key) wheel.show(angle);
     if (done) this.main.edit([{ op: "set", key, value: angle }]).catch(tell);
+    else this.area.instant.ask(this.main, { key, value: angle });
   }
 
   showText(on) {
