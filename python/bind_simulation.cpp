@@ -2,6 +2,7 @@
 // A simulation that Python watches, stops, and whose arrays it sees while it goes on.
 #include "core/results/result_fields.hpp"
 #include "core/run/output_state.hpp"
+#include "core/setup/instant.hpp"
 #include "core/setup/run_prepared.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/whole_step.hpp"
@@ -134,6 +135,25 @@ private:
   bool used_ = false;
 };
 
+/// form_ply of core/setup/instant.hpp.
+Outcome formed_ply(const PreparedCase& prepared, std::size_t ply, int threads,
+                   const py::object& progress) {
+  if (ply >= prepared.value->plies.size()) throw py::index_error("there is no such ply");
+  Callbacks callbacks;
+  RunHooks hooks;
+  hooks.progress = [&](const Progress& p) {
+    const py::gil_scoped_acquire python;
+    callbacks.call(progress, [&] { return py::cast(p); });
+  };
+  hooks.interrupt = &callbacks.stop;
+  RunResult result = [&] {
+    const py::gil_scoped_release others;
+    return form_ply(prepared, ply, threads_or_cores(threads), hooks);
+  }();
+  const std::string summary = summary_json(result.last, result.summary);
+  return {std::make_shared<Frame>(std::move(result.last)), summary, callbacks.error};
+}
+
 /// An array of the scene's own.
 template <class Part, class Value>
 void add_live(py::class_<PlyBody, std::shared_ptr<PlyBody>>& ply, const char* name,
@@ -199,6 +219,9 @@ void bind_simulation(py::module_& m) {
           "mm, so far, of the first tool, grip or frame driven.")
       .def("run", &Simulation::run, py::arg("output"), py::arg("progress"), py::arg("frame"),
            "Runs to the end. Raises Error.");
+  m.def("form_ply", &formed_ply, py::arg("prepared"), py::arg("ply"), py::arg("threads"),
+        py::arg("progress"),
+        "One ply of a case without mistakes, formed alone; threads: 0 for as many as cores.");
 }
 
 } // namespace plyform

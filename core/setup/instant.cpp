@@ -258,6 +258,28 @@ Summary summary_of_all(const Case& data, const std::vector<PlyAlone>& alone,
   return all;
 }
 
+/// Forms these plies and puts them together.
+RunResult form_all(const Case& data, const std::vector<PlyAlone>& alone, int threads,
+                   const RunHooks& hooks) {
+  const double share = 1.0 / static_cast<double>(alone.size());
+  std::vector<FormedAlone> formed;
+  for (const PlyAlone& one : alone) {
+    formed.push_back(form(one, threads, hooks, share * static_cast<double>(formed.size()), share));
+    RunResult& result = formed.back().result;
+    if (ended(result.summary.status)) continue;
+    result.summary.message = fmt::format(
+        "ply {}, formed alone: {}", data.plies[one.plies.front()].name, result.summary.message);
+    return std::move(result);
+  }
+  RunResult all;
+  all.summary = summary_of_all(data, alone, formed);
+  for (std::size_t k = 0; k < formed.front().frames.size(); ++k) {
+    all.last = state_of_all(data, alone, formed, k);
+    if (hooks.frame) hooks.frame(all.last);
+  }
+  return all;
+}
+
 } // namespace
 
 std::string not_for_plies_alone(const Case& data) {
@@ -303,25 +325,20 @@ std::vector<PlyAlone> plies_alone(const PreparedCase& prepared) {
 }
 
 RunResult run_instant(const PreparedCase& prepared, int threads, const RunHooks& hooks) {
-  const Case& data = *prepared.value;
-  const std::vector<PlyAlone> alone = plies_alone(prepared);
-  const double share = 1.0 / static_cast<double>(alone.size());
-  std::vector<FormedAlone> formed;
-  for (const PlyAlone& one : alone) {
-    formed.push_back(form(one, threads, hooks, share * static_cast<double>(formed.size()), share));
-    RunResult& result = formed.back().result;
-    if (ended(result.summary.status)) continue;
-    result.summary.message = fmt::format(
-        "ply {}, formed alone: {}", data.plies[one.plies.front()].name, result.summary.message);
-    return std::move(result);
-  }
-  RunResult all;
-  all.summary = summary_of_all(data, alone, formed);
-  for (std::size_t k = 0; k < formed.front().frames.size(); ++k) {
-    all.last = state_of_all(data, alone, formed, k);
-    if (hooks.frame) hooks.frame(all.last);
-  }
-  return all;
+  return form_all(*prepared.value, plies_alone(prepared), threads, hooks);
+}
+
+RunResult form_ply(const PreparedCase& prepared, std::size_t ply, int threads,
+                   const RunHooks& hooks) {
+  std::vector<PlyAlone> alone = plies_alone(prepared);
+  std::erase_if(alone, [&](const PlyAlone& one) {
+    return std::find(one.plies.begin(), one.plies.end(), ply) == one.plies.end();
+  });
+  RunResult result = form_all(*prepared.value, alone, threads, hooks);
+  if (result.summary.plies.size() <= 1) return result; // it did not come to its end
+  result.last.plies = {std::move(result.last.plies[ply])};
+  result.summary.plies = {std::move(result.summary.plies[ply])};
+  return result;
 }
 
 } // namespace plyform

@@ -37,4 +37,9 @@ std::vector<PlyAlone> plies_alone(const PreparedCase& prepared);
 /// not come to its end. Frames are told when all have. threads >= 1. Throws as run_case.
 RunResult run_instant(const PreparedCase& prepared, int threads, const RunHooks& hooks);
 
+/// One ply of it, the only one in the state and in the summary that come back; frames have it in
+/// its place among empty ones. ply: its number.
+RunResult form_ply(const PreparedCase& prepared, std::size_t ply, int threads,
+                   const RunHooks& hooks);
+
 } // namespace plyform

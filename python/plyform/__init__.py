@@ -11,14 +11,14 @@ from ._parts import Parts
 from ._plyform import (BoundaryFrame, Difference, FirstContact, Frame, Key, KeyColumn, LivePly,
                        Mistake, Outlook, PlyFrame, PlyGap, PredictedError, Progress, Scene,
                        SceneBoundary, ScenePly, SceneTool, ToolFrame, keys, version)
-from ._run import Result, Simulation, difference, export, history, read, run
+from ._run import Result, Simulation, difference, export, form_ply, history, read, run
 
 __version__ = version
 __all__ = [
     "BoundaryFrame", "Case", "CaseError", "Check", "Difference", "Error", "FirstContact", "Frame",
     "Identified", "Key", "KeyColumn", "LivePly", "Mistake", "Number", "Outlook", "Parts", "PlyFrame",
     "PlyGap", "PredictedError", "Progress", "Result", "Scene", "SceneBoundary", "ScenePly",
-    "SceneTool", "Simulation", "Stopped", "ToolFrame", "Warned", "difference", "export", "history",
-    "identify", "identify_tests", "keys", "predicted_error", "read", "run", "theory_shear",
-    "version",
+    "SceneTool", "Simulation", "Stopped", "ToolFrame", "Warned", "difference", "export", "form_ply",
+    "history", "identify", "identify_tests", "keys", "predicted_error", "read", "run",
+    "theory_shear", "version",
 ]

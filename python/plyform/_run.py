@@ -156,6 +156,27 @@ def run(case: Case, threads: int | None = None, output: AnyPath | None = None,
     return Simulation(case, threads).run(output, progress, frame)
 
 
+def form_ply(case: Case, ply: int, threads: int | None = None,
+             progress: ProgressCallback | None = None) -> Result:
+    """One ply of a stack, formed alone as by accuracy="instant"; the only ply of the result.
+
+    ply: its number, from 0. threads, progress: as of Simulation. Raises CaseError, also where a ply alone
+    says nothing of the case, and IndexError.
+    """
+    alone = Case(case.file, accuracy="instant")
+    alone._settings.update(case.settings)
+    prepared = alone._prepare()
+    if prepared.mistakes:
+        raise CaseError(prepared.mistakes)
+    outcome = _plyform.form_ply(prepared, ply, threads or 0, progress)
+    if outcome.error is not None:
+        raise outcome.error
+    result = Result(outcome.last, json.loads(outcome.summary), None)
+    if result.status == "stopped":
+        raise Stopped(result.message, result)
+    return result
+
+
 def read(folder: AnyPath, frame: int = -1) -> Result:
     """A state of a run from its folder: from 0, or from the end; energies of the state are NaN.
 

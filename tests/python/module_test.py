@@ -83,6 +83,11 @@ def check_values(_):
     raised(ValueError, plyform.Case, HEMISPHERE, accuracy="rough")
     first = plyform.run(plyform.Case(HEMISPHERE, accuracy="instant"))
     assert first.status == "instant" and len(first.plies) == 1, first.status
+    five = plyform.Case(HEMISPHERE.parent / "hemisphere_five_ply", accuracy="instant")
+    all_of_them, one = plyform.run(five), plyform.form_ply(five, 3)
+    assert [ply.name for ply in one.plies] == [all_of_them.plies[3].name] and one.status == "instant"
+    assert np.array_equal(one.plies[0].x, all_of_them.plies[3].x), "alone or among all, it is formed alike"
+    assert one.summary["plies"] == [all_of_them.summary["plies"][3]]
     squares = {"blanks.square.mesh_from": "element_size", "blanks.square.element_size": 6.8}
     outlook = plyform.Case(HEMISPHERE, {"ply.0.angle": 45.0, **squares}).outlook(threads=1)
     told = subprocess.run([program, "check", HEMISPHERE, "--set", "ply.0.angle=45",

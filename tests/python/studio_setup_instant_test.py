@@ -48,7 +48,13 @@ def angle(page: Page) -> float:
 def opens(page: Page) -> None:
     page.press("#instant-open")
     page.until(lambda: shown(page).get("drawn"), "plies are formed")
+    looked_ahead(page)
     assert re.search(r"shear angles to \d.*° \(99 %\), known to some \d+°", page.text("#instant-words"))
+
+
+def looked_ahead(page: Page) -> None:
+    """Nothing else computes any more."""
+    page.when("return plyform_setup.answer && plyform_setup.answer.outlook")
 
 
 def follows_a_hand(page: Page) -> None:
@@ -85,7 +91,7 @@ def is_the_programs(page: Page, degrees: float) -> None:
 
 def fifty_quick_turns(page: Page) -> None:
     """The last one is drawn, and then nothing goes on."""
-    page.near(DIAL)
+    looked_ahead(page)
     before = int(shown(page)["drawn"])
     page.js(FIFTY, DIAL)
     page.until(lambda: angle(page) == 50 and shown(page).get("value") == "50", "the last turn is drawn")

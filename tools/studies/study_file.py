@@ -17,7 +17,7 @@ from studies.toml_place import Mistakes, lines_of
 
 METHODS = ("one at a time", "grid", "list", "latin hypercube", "sobol")
 DRAWN = METHODS[3:]  # from ranges, with a number of runs
-PRESETS = ("draft", "standard", "reference")
+PRESETS = ("instant", "draft", "standard", "reference")
 INCLUDED = ("area_means", "figures", "limits", "stops", "table")  # of a file included
 MOST_RUNS = 100000  # of a second each they take a day
 # columns of every table

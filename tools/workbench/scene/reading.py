@@ -94,13 +94,13 @@ class CaseReading:
         return answer
 
     def instant(self, name: str, version: str, key: str, value: float | None) -> bytes:
-        """How the plies will be formed, each alone; with another value of a key of a ply, where one is given."""
+        """How the plies will be formed, each alone; or one of them, with another value of a key of it."""
         if key and not OF_A_PLY.fullmatch(key):
             raise Refused("only angles, rotations and heights of plies are tried", 422)
         name, stamp, path = self.asked(name, version)
-        settings = {key: value} if key else {}
+        change = {"settings": {key: value}, "ply": int(key.split(".")[1])} if key else {"settings": {}, "ply": None}
         return self.once(("instant", name), (*stamp, key, value), lambda: self.bytes_of(
-            self.workers.instant, "instant", path, stamp, settings=settings, threads=len(os.sched_getaffinity(0))))
+            self.workers.instant, "instant", path, stamp, threads=len(os.sched_getaffinity(0)), **change))
 
     def look_ahead(self, name: str, version: str, stamp: tuple, path: Path) -> None:
         """Tells {kind: "outlook", path, version, outlook} when it is known."""

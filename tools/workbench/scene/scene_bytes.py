@@ -52,14 +52,15 @@ def scene_bytes(scene, version: str, stand_ins: dict[int, StandIn] | None = None
     return arrays.packed(finite(header))
 
 
-def formed_bytes(result) -> bytes:
+def formed_bytes(result, first: int = 0) -> bytes:
     """Of a plyform.Result, as live_states.state gives one, with meshes: {told_deg, plies: [{name, key, x0, x,
-    triangles, field, p99_deg}], tools: [{name, shift}]}; field: the shear angle of each triangle, degrees."""
+    triangles, field, p99_deg}], tools: [{name, shift}]}; field: the shear angle of each triangle, degrees.
+    first: the number of its first ply in the case."""
     arrays = Arrays()
     summary = result.summary
     return arrays.packed(finite({
         "told_deg": summary["accuracy"]["promised_shear_error_deg"],
-        "plies": [{"name": ply.name, "key": f"ply.{number}", "x0": arrays.add(np.asarray(ply.x0)),
+        "plies": [{"name": ply.name, "key": f"ply.{first + number}", "x0": arrays.add(np.asarray(ply.x0)),
                    "x": arrays.add(np.asarray(ply.x)), "triangles": arrays.add(np.asarray(ply.triangles)),
                    "field": arrays.add(np.asarray(ply.shear_angle_deg)),
                    "p99_deg": summary["plies"][number]["p99_shear_deg"]}
