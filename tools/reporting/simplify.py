@@ -13,6 +13,7 @@ import numpy as np
 
 ROUNDS = 40
 ENOUGH = 6000  # triangles: a picture is drawn fast enough
+PASSES = 3  # in a round, over what its costs are known of
 FEW = 0.01  # of the vertices: when fewer move in a round, it was the last
 
 
@@ -58,17 +59,16 @@ def collapses(x, triangles, quadrics, tolerance, chance):
     for k in range(3):
         turned[triangles[turns_over(x, triangles, k, target), k]] = True
     best[turned] = np.inf
-    least = np.full(len(x), np.inf)  # of a vertex: over all triangles that it is in
-    of_triangle = best[triangles].min(axis=1)
-    order = np.argsort(-of_triangle)
-    for k in range(3):
-        mine = np.full(len(x), np.inf)
-        mine[triangles[order, k]] = of_triangle[order]
-        least = np.minimum(least, mine)
-    wins = np.isfinite(best)
-    for k in range(3):
-        loses = (least[triangles] < best[triangles[:, k]][:, None]).any(axis=1)
-        wins[triangles[loses, k]] = False
+    wins = np.zeros(len(x), dtype=bool)
+    for _ in range(PASSES):  # of those that are left the cheapest of their triangles
+        of_corner = best[triangles]
+        of_triangle = of_corner.min(axis=1)
+        loses = np.zeros(len(x), dtype=bool)
+        for k in range(3):
+            loses[triangles[of_corner[:, k] > of_triangle, k]] = True
+        now = np.isfinite(best) & ~loses
+        wins |= now
+        best[triangles[now[triangles].any(axis=1)]] = np.inf
     moved = np.flatnonzero(wins)
     return moved, target[moved]
 
