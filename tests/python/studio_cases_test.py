@@ -179,6 +179,16 @@ def drawn(server):
     assert abs(last[2] + 75) < 1e-3 and punch["shares"][-1] == 1 and header["missing"] == []
 
 
+def formed_at_once(server):
+    wish = {"path": "five/case.toml", "version": server.get("api/case", path="five/case.toml")["version"]}
+    for change, plies in (({}, range(5)), ({"key": "ply.1.angle", "value": 33}, [1])):
+        content = server.get("api/instant", **wish, **change)
+        header = json.loads(content[4:4 + struct.unpack("<I", content[:4])[0]])
+        assert [ply["key"] for ply in header["plies"]] == [f"ply.{k}" for k in plies] and header["told_deg"] > 0
+        assert all(20 < ply["p99_deg"] < 60 for ply in header["plies"]), header
+    assert server.call("GET", "api/instant", query={**wish, "key": "tool.0.file", "value": 1})[0] == 422
+
+
 def taken_in(server):
     """Files that are dropped in, and what they become."""
     def upload(name, content, **query):
@@ -374,7 +384,7 @@ def main():
     module_comes_later()
     with Server(TOOLS, PROGRAM) as server:
         for part in (made_and_listed, changed_and_taken_back, two_pages, taken_in, told_by_the_program, drawn, drawn_at_once,
-                     process_dies):
+                     formed_at_once, process_dies):
             begun = time.monotonic()
             part(server)
             print(f"{part.__name__}: {time.monotonic() - begun:.1f} s")
