@@ -9,6 +9,7 @@ import { askBytes, send } from "workbench/page/server.js";
 import { SceneView } from "workbench/scene/view.js";
 
 const PATIENCE = 700; // ms that an older question may still take before a newer one ends it
+const TOGETHER = 30; // ms in which what a hand does is one question: it presses and then moves
 const short = (value) => Number(value.toFixed(1)).toString();
 
 export class InstantShear {
@@ -60,10 +61,13 @@ export class InstantShear {
     this.file = file;
     if (this.box.hidden) return;
     this.wanted = { path: file.path, version: file.version, ...change };
-    if (!this.since || performance.now() - this.since > PATIENCE) this.next().catch(tell);
+    const free = !this.since || performance.now() - this.since > PATIENCE;
+    if (free && !this.timer) this.timer = setTimeout(() => this.next().catch(tell), TOGETHER);
   }
 
   async next() {
+    clearTimeout(this.timer);
+    this.timer = 0;
     const query = this.wanted;
     if (!query || this.box.hidden) return;
     this.wanted = null;
