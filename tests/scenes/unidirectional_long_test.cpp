@@ -21,6 +21,7 @@ const Settings cone{{"tool.0.shape", "\"cone\""},   {"tool.0.radius", "25.0"},
 
 Frame formed(double angle, Settings settings) {
   settings.emplace_back("ply.0.angle", fmt::format("{}", angle));
+  settings.emplace_back("symmetry", "\"none\""); // at any angle alike
   const PreparedCase reading =
       prepare_case(std::string(PLYFORM_CASES) + "/hemisphere_ud/case.toml", settings);
   for (const CaseError& error : reading.errors)
