@@ -174,6 +174,42 @@ void make_cheap(Case& data) {
   data.accuracy = {};
 }
 
+/// The plies of a case, those together that are alike; the one that stands for all first.
+std::vector<std::vector<std::size_t>> groups_of(const Case& data) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t p = 0; p < data.plies.size(); ++p) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& others) {
+      return std::all_of(others.begin(), others.end(),
+                         [&](std::size_t q) { return goes_the_same_way(data, p, q); });
+    });
+    if (group == groups.end())
+      groups.push_back({p});
+    else
+      group->push_back(p);
+  }
+  for (std::vector<std::size_t>& group : groups)
+    std::swap(group.front(), group[group.size() / 2]); // the middle one stands for all
+  return groups;
+}
+
+/// above: of tools_above.
+PlyAlone ply_alone(const PreparedCase& prepared, const std::vector<char>& above,
+                   std::vector<std::size_t> group) {
+  const Case& data = *prepared.value;
+  Case one = data;
+  leave_alone(one, group.front());
+  stand_for_stack(data, group.front(), above, one);
+  make_cheap(one);
+  one.symmetry = Symmetry::alike;
+  PlyAlone of;
+  of.plies = std::move(group);
+  of.prepared.meshes = {mesh_ply(one, one.plies[0])};
+  of.prepared.parts = prepared.parts;
+  of.prepared.value = std::move(one);
+  take_part(of.prepared);
+  return of;
+}
+
 /// Moves a ply that has been formed to the height of another that it stands for.
 PlyFrame at_height(PlyFrame ply, const Ply& from, const Ply& to) {
   ply.name = to.name;
@@ -292,35 +328,10 @@ std::string not_for_plies_alone(const Case& data) {
 }
 
 std::vector<PlyAlone> plies_alone(const PreparedCase& prepared) {
-  const Case& data = *prepared.value;
-  const std::vector<char> above = tools_above(data, prepared.meshes);
-  std::vector<std::vector<std::size_t>> groups;
-  for (std::size_t p = 0; p < data.plies.size(); ++p) {
-    const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& others) {
-      return std::all_of(others.begin(), others.end(),
-                         [&](std::size_t q) { return goes_the_same_way(data, p, q); });
-    });
-    if (group == groups.end())
-      groups.push_back({p});
-    else
-      group->push_back(p);
-  }
+  const std::vector<char> above = tools_above(*prepared.value, prepared.meshes);
   std::vector<PlyAlone> alone;
-  for (std::vector<std::size_t>& group : groups) {
-    std::swap(group.front(), group[group.size() / 2]); // the middle one stands for all
-    const std::size_t p = group.front();
-    PlyAlone& of = alone.emplace_back();
-    of.plies = group;
-    Case one = data;
-    leave_alone(one, p);
-    stand_for_stack(data, p, above, one);
-    make_cheap(one);
-    one.symmetry = Symmetry::alike;
-    of.prepared.meshes = {mesh_ply(one, one.plies[0])};
-    of.prepared.parts = prepared.parts;
-    of.prepared.value = std::move(one);
-    take_part(of.prepared);
-  }
+  for (std::vector<std::size_t>& group : groups_of(*prepared.value))
+    alone.push_back(ply_alone(prepared, above, std::move(group)));
   return alone;
 }
 
@@ -330,11 +341,12 @@ RunResult run_instant(const PreparedCase& prepared, int threads, const RunHooks&
 
 RunResult form_ply(const PreparedCase& prepared, std::size_t ply, int threads,
                    const RunHooks& hooks) {
-  std::vector<PlyAlone> alone = plies_alone(prepared);
-  std::erase_if(alone, [&](const PlyAlone& one) {
-    return std::find(one.plies.begin(), one.plies.end(), ply) == one.plies.end();
-  });
-  RunResult result = form_all(*prepared.value, alone, threads, hooks);
+  const Case& data = *prepared.value;
+  std::vector<PlyAlone> alone;
+  for (std::vector<std::size_t>& group : groups_of(data))
+    if (std::find(group.begin(), group.end(), ply) != group.end())
+      alone.push_back(ply_alone(prepared, tools_above(data, prepared.meshes), std::move(group)));
+  RunResult result = form_all(data, alone, threads, hooks);
   if (result.summary.plies.size() <= 1) return result; // it did not come to its end
   result.last.plies = {std::move(result.last.plies[ply])};
   result.summary.plies = {std::move(result.summary.plies[ply])};

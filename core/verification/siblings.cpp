@@ -5,6 +5,7 @@
 #include "core/mesh/mesh_ply.hpp"
 #include "core/mesh/mesh_variants.hpp"
 #include "core/model/boundary.hpp"
+#include "core/solver/scene.hpp"
 #include "core/verification/no_band.hpp"
 
 #include <algorithm>
@@ -223,6 +224,13 @@ Siblings siblings_of(const Case& data, const std::vector<BlankMesh>& meshes) {
              "finer, and what depends on it has no band");
   add_finer(siblings, data, own, fine);
   return siblings;
+}
+
+void move_first_tool(const Case& data, const Vec3& by, Scene& scene) {
+  const auto tool = std::find_if(data.tools.begin(), data.tools.end(),
+                                 [](const Tool& t) { return t.motion != Motion::fixed; });
+  if (tool != data.tools.end())
+    scene.tools[static_cast<std::size_t>(tool - data.tools.begin())].body.position += by;
 }
 
 } // namespace plyform

@@ -32,6 +32,8 @@
 
 namespace plyform {
 
+struct Scene;
+
 enum class Cause { mesh, inertia, softening, chance, late_chance, later_chance };
 
 struct Sibling {
@@ -61,5 +63,8 @@ struct Siblings {
 /// (bending_resolution.hpp asks for 2.5; with 1.4 equal runs differ by degrees). meshes: of the
 /// run's plies; if empty, they are meshed here.
 Siblings siblings_of(const Case& data, const std::vector<BlankMesh>& meshes = {});
+
+/// Moves the first tool that moves, of a scene of this case that has not begun, by `by` (mm).
+void move_first_tool(const Case& data, const Vec3& by, Scene& scene);
 
 } // namespace plyform

@@ -84,11 +84,7 @@ SiblingRun run_sibling(const Sibling& sibling, const RunResult& run, const Trace
   if (sibling.cause != Cause::mesh && sibling.cause != Cause::softening)
     watch(run_hooks, done.trace, false);
   Scene scene = make_scene(sibling.data, sibling.meshes, threads);
-  const auto tool = std::find_if(sibling.data.tools.begin(), sibling.data.tools.end(),
-                                 [](const Tool& t) { return t.motion != Motion::fixed; });
-  if (tool != sibling.data.tools.end())
-    scene.tools[static_cast<std::size_t>(tool - sibling.data.tools.begin())].body.position +=
-        sibling.move;
+  move_first_tool(sibling.data, sibling.move, scene);
   Resume resume;
   if (sibling.from > 0.0) {
     const Moment& start = *moment_at(trace, sibling.from);

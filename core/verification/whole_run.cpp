@@ -5,6 +5,7 @@
 #include "core/mesh/mesh_ply.hpp"
 #include "core/results/field_difference.hpp"
 #include "core/solver/scene.hpp"
+#include "core/verification/siblings.hpp"
 
 #include <algorithm>
 
@@ -18,11 +19,7 @@ std::optional<WholeRun> run_whole(const Case& whole, const RunResult& shown, Err
   Scene scene = make_scene(whole, {}, threads);
   WholeRun found;
   found.moved_mm = share * scene.element_size;
-  const auto tool = std::find_if(whole.tools.begin(), whole.tools.end(),
-                                 [](const Tool& t) { return t.motion != Motion::fixed; });
-  if (tool != whole.tools.end())
-    scene.tools[static_cast<std::size_t>(tool - whole.tools.begin())].body.position +=
-        found.moved_mm * Vec3(0.8, 0.6, 0.0);
+  move_first_tool(whole, found.moved_mm * Vec3(0.8, 0.6, 0.0), scene);
   RunHooks run;
   run.interrupt = hooks.interrupt;
   if (hooks.progress) run.progress = [&](const Progress& p) { hooks.progress(p, p.fraction); };

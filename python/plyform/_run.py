@@ -86,6 +86,23 @@ def _check_start(ply: str, what: str, values: NDArray[np.float64]) -> None:
                          "numbers")
 
 
+def _sound(case: Case) -> _plyform.Prepared:
+    """Raises CaseError if the case has mistakes."""
+    prepared = case._prepare()
+    if prepared.mistakes:
+        raise CaseError(prepared.mistakes)
+    return prepared
+
+
+def _ended(result: Result, error: BaseException | None) -> Result:
+    """Raises what a callback raised, and Stopped if the simulation stopped itself."""
+    if error is not None:
+        raise error
+    if result.status == "stopped":
+        raise Stopped(result.message, result)
+    return result
+
+
 class Simulation:
     """A case in motion, whose arrays can be looked at while it runs. Runs once.
 
@@ -96,10 +113,7 @@ class Simulation:
     def __init__(self, case: Case, threads: int | None = None):
         if threads is not None and not 1 <= threads <= 256:
             raise ValueError(f"threads: {threads} is not 1 to 256")
-        prepared = case._prepare()
-        if prepared.mistakes:
-            raise CaseError(prepared.mistakes)
-        self._simulation = _plyform.Simulation(prepared, threads or 0)
+        self._simulation = _plyform.Simulation(_sound(case), threads or 0)
         #: Plies by number or by name; their positions and velocities are those computed on. Before
         #: the run they may be given other values to start from.
         self.plies: Parts[LivePly] = self._simulation.plies
@@ -143,11 +157,7 @@ class Simulation:
         folder = None if output is None else Path(output)
         outcome = self._simulation.run(folder, progress, frame)
         self.result = Result(outcome.last, json.loads(outcome.summary), folder)
-        if outcome.error is not None:
-            raise outcome.error
-        if self.result.status == "stopped":
-            raise Stopped(self.result.message, self.result)
-        return self.result
+        return _ended(self.result, outcome.error)
 
 
 def run(case: Case, threads: int | None = None, output: AnyPath | None = None,
@@ -165,16 +175,8 @@ def form_ply(case: Case, ply: int, threads: int | None = None,
     """
     alone = Case(case.file, accuracy="instant")
     alone._settings.update(case.settings)
-    prepared = alone._prepare()
-    if prepared.mistakes:
-        raise CaseError(prepared.mistakes)
-    outcome = _plyform.form_ply(prepared, ply, threads or 0, progress)
-    if outcome.error is not None:
-        raise outcome.error
-    result = Result(outcome.last, json.loads(outcome.summary), None)
-    if result.status == "stopped":
-        raise Stopped(result.message, result)
-    return result
+    outcome = _plyform.form_ply(_sound(alone), ply, threads or 0, progress)
+    return _ended(Result(outcome.last, json.loads(outcome.summary), None), outcome.error)
 
 
 def read(folder: AnyPath, frame: int = -1) -> Result:

@@ -99,8 +99,8 @@ def outlook(plyform, request: dict) -> tuple[dict, bytes]:
 
 
 def instant(plyform, request: dict) -> tuple[dict, bytes]:
-    """The plies, each formed alone, of a case with some values changed, or the one asked for. Says why if it
-    cannot be, and `newer` if it was ended."""
+    """The plies, each formed alone, of a case with some values changed, or the one asked for. Says `refused`,
+    why, if it cannot be, and `newer` if it was ended."""
     from workbench.scene.scene_bytes import formed_bytes
     case = plyform.Case(request["file"], request["settings"], accuracy="instant")
     how = {"threads": request["threads"], "progress": lambda _: not NEWER.is_set()}
@@ -108,9 +108,9 @@ def instant(plyform, request: dict) -> tuple[dict, bytes]:
     try:
         result = plyform.run(case, **how) if ply is None else plyform.form_ply(case, ply, **how)
     except plyform.CaseError as problem:
-        return {"why": str(problem.mistakes[0])[:2000]}, b""
+        return {"refused": str(problem.mistakes[0])[:2000]}, b""
     except plyform.Error as problem:
-        return {"why": str(problem)[:2000]}, b""
+        return {"refused": str(problem)[:2000]}, b""
     if result.status == "interrupted":
         return {"newer": True}, b""
     return {}, formed_bytes(result, ply or 0)

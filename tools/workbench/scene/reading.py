@@ -132,8 +132,8 @@ class CaseReading:
         self.without_fault(said)
         if "newer" in said:
             raise Refused("the case has changed meanwhile", 409)
-        if "why" in said and "outlook" not in said:
-            raise Refused(said["why"], 422)
+        if "refused" in said:
+            raise Refused(said["refused"], 422)
 
     @staticmethod
     def without_fault(said: dict) -> None:

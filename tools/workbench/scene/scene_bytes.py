@@ -54,7 +54,7 @@ def scene_bytes(scene, version: str, stand_ins: dict[int, StandIn] | None = None
 
 def formed_bytes(result, first: int = 0) -> bytes:
     """Of a plyform.Result, as live_states.state gives one, with meshes: {told_deg, plies: [{name, key, x0, x,
-    triangles, field, p99_deg}], tools: [{name, shift}]}; field: the shear angle of each triangle, degrees.
+    triangles, field, p99_deg}]}; field: the shear angle of each triangle, degrees.
     first: the number of its first ply in the case."""
     arrays = Arrays()
     summary = result.summary
@@ -64,8 +64,7 @@ def formed_bytes(result, first: int = 0) -> bytes:
                    "x": arrays.add(np.asarray(ply.x)), "triangles": arrays.add(np.asarray(ply.triangles)),
                    "field": arrays.add(np.asarray(ply.shear_angle_deg)),
                    "p99_deg": summary["plies"][number]["p99_shear_deg"]}
-                  for number, ply in enumerate(result.plies)],
-        "tools": [{"name": tool.name, "shift": tool.displacement_mm} for tool in result.tools]}))
+                  for number, ply in enumerate(result.plies)]}))
 
 
 def ply_part(ply, number: int, arrays: Arrays) -> dict:

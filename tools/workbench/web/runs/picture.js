@@ -2,9 +2,9 @@
 // The plies and tools of a run: as they are now while it goes on, and in each of its states. Before it has
 // any, those of the fast run with coarse elements that looks where small ones are needed.
 
-import { gradient } from "plyform/colours.js";
 import { button, element, tell } from "workbench/page/elements.js";
 import { unpacked } from "workbench/page/packed.js";
+import { showShear } from "workbench/scene/shear.js";
 import { SceneView } from "workbench/scene/view.js";
 import { askBytes } from "workbench/page/server.js";
 
@@ -195,16 +195,10 @@ export class RunPicture {
       for (let k = 0; k < ply.x.length; ++k) moved = Math.max(moved, Math.abs(ply.x[k] - plies[i].x[k]));
       for (const angle of ply.field) this.high = Math.max(this.high, 5 * Math.ceil(Math.abs(angle) / 5));
     });
-    const scale = { low: 0, high: this.high };
-    state.plies.forEach((ply, i) => {
-      this.view.move(i, ply.x);
-      this.view.colour(i, { of: "triangle", values: ply.field.map(Math.abs) }, scale);
-    });
+    showShear(this.view, this.legend, state.plies, this.high);
     state.tools.forEach((tool, i) => tools[i] && this.view.shift(i, tool.shift));
     this.words.textContent = words;
     this.scene.dataset.moved = moved.toFixed(6);
     this.scene.dataset.drawn = Number(this.scene.dataset.drawn || 0) + 1;
-    this.legend.replaceChildren("Shear angle 0", element("span", { className: "run-scale",
-      style: { background: gradient("viridis", 0) } }), `${this.high}°`);
   }
 }

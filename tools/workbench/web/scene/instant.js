@@ -2,10 +2,10 @@
 // The shear that each ply would have when it is formed, alone and at once, in a corner of the scene: drawn
 // anew while a hand turns a ply, and after each edit. Nothing is computed while it is closed.
 
-import { gradient } from "plyform/colours.js";
 import { button, element, tell } from "workbench/page/elements.js";
 import { unpacked } from "workbench/page/packed.js";
 import { askBytes, send } from "workbench/page/server.js";
+import { showShear } from "workbench/scene/shear.js";
 import { SceneView } from "workbench/scene/view.js";
 
 const PATIENCE = 700; // ms that an older question may still take before a newer one ends it
@@ -41,6 +41,7 @@ export class InstantShear {
   /** Another case, or none. */
   clear() {
     this.asked += 1; // answers on their way are not for it
+    this.since = 0;
     this.file = this.wanted = this.keys = null;
     this.words.textContent = "";
   }
@@ -72,8 +73,7 @@ export class InstantShear {
     if (!query || this.box.hidden) return;
     this.wanted = null;
     const number = ++this.asked;
-    const since = performance.now();
-    this.since = since;
+    this.since = performance.now();
     try {
       const state = unpacked(await askBytes("instant", query));
       if (number === this.asked) this.draw(state, query);
@@ -96,17 +96,11 @@ export class InstantShear {
     this.keys = state.plies.map(({ key }) => key);
     this.show();
     const highs = state.plies.map((ply) => ply.p99_deg);
-    const scale = { low: 0, high: Math.max(5, 5 * Math.ceil(Math.max(...highs) / 5)) };
-    state.plies.forEach((ply, i) => {
-      this.view.move(i, ply.x);
-      this.view.colour(i, { of: "triangle", values: ply.field.map(Math.abs) }, scale);
-    });
+    showShear(this.view, this.legend, state.plies, Math.max(5, 5 * Math.ceil(Math.max(...highs) / 5)));
     const turned = query.key ? `at ${short(query.value)}: ` : "";
     const told = this.keys.includes(this.only) ? this.keys.indexOf(this.only) : highs.indexOf(Math.max(...highs));
     this.words.textContent = `${turned}${state.plies[told].name}, shear angles to ${short(highs[told])}° (99 %), ` +
       `known to some ${short(state.told_deg)}°`;
-    this.legend.replaceChildren("Shear angle 0", element("span", { className: "run-scale",
-      style: { background: gradient("viridis", 0) } }), `${scale.high}°`);
     Object.assign(this.scene.dataset, { drawn: Number(this.scene.dataset.drawn || 0) + 1,
       value: query.key ? query.value : "" });
   }
