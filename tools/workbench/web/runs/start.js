@@ -3,10 +3,7 @@
 
 import { button, element, tell } from "workbench/page/elements.js";
 import { ask, listen, send } from "workbench/page/server.js";
-
-const ACCURACIES = [["", "as the case has it"], ["instant", "instant: plies alone, at once"],
-  ["draft", "draft: shear angles to 3°"],
-  ["standard", "standard: to 1°"], ["reference", "reference: to 0.3°"]];
+import { ACCURACIES } from "workbench/runs/words.js";
 
 const field = (text, control, note = "") => element("label", {}, element("span", { textContent: text }), control,
   element("small", { textContent: note }));

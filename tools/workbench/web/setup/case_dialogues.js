@@ -5,6 +5,7 @@ import { dialogue } from "workbench/page/dialogue.js";
 import { numberOf } from "workbench/setup/inputs.js";
 import { fromCase } from "workbench/setup/references.js";
 import { ask, send } from "workbench/page/server.js";
+import { ACCURACIES } from "workbench/runs/words.js";
 
 export async function newCase(folder, opened) {
   const examples = await ask("examples").catch(() => []);
@@ -50,9 +51,7 @@ export function askRun(path, count) {
   dialogue("ask-run", "Run the case", [
     { name: "name", title: "Name of the results", kind: "text", hint: "after the case",
       note: "letters, digits, _, - and .; a name that is free if you give none" },
-    { name: "accuracy", title: "Accuracy", kind: "select", choices: [["", "as the case has it"],
-      ["instant", "instant: plies alone, at once"],
-      ["draft", "draft: shear angles to 3°"], ["standard", "standard: 1°"], ["reference", "reference: 0.3°"]] },
+    { name: "accuracy", title: "Accuracy", kind: "select", choices: ACCURACIES },
     { name: "threads", title: "Threads", kind: "number", hint: "all", note: "results do not depend on it" },
     { name: "budget", title: "Budget", kind: "number", unit: "s", hint: "none",
       note: "a run that would take longer is refused" },
