@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The form that starts a run.
 
+import { ACCURACIES } from "workbench/page/accuracies.js";
 import { button, element, tell } from "workbench/page/elements.js";
 import { ask, listen, send } from "workbench/page/server.js";
-import { ACCURACIES } from "workbench/runs/words.js";
 
 const field = (text, control, note = "") => element("label", {}, element("span", { textContent: text }), control,
   element("small", { textContent: note }));

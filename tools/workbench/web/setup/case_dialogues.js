@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Asking for a new case, a fabric, a run.
 
+import { ACCURACIES } from "workbench/page/accuracies.js";
 import { dialogue } from "workbench/page/dialogue.js";
 import { numberOf } from "workbench/setup/inputs.js";
 import { fromCase } from "workbench/setup/references.js";
 import { ask, send } from "workbench/page/server.js";
-import { ACCURACIES } from "workbench/runs/words.js";
 
 export async function newCase(folder, opened) {
   const examples = await ask("examples").catch(() => []);
